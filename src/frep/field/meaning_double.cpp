@@ -1,0 +1,3 @@
+#include "frep/field/meaning_impl.h"
+
+template double frep::meaning<double>(frep::Op, std::span<const double>, std::span<const double>);
