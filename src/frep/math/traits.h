@@ -1,0 +1,105 @@
+// What generic code may ask of a number type T: its mask, its constants, comparison and selection; and what a
+// kernel may ask besides: the bit patterns, and a shared scalar path for rare arguments. A new lane type (for
+// instance one that emits instructions) supplies these few names. Checked by tests/unit/math/lanes_test.cpp.
+#pragma once
+
+#include "frep/math/lanes.h"
+
+FREP_MATH_OPEN
+
+/// What comparing two T gives: bool for double; other number types specialise it.
+template <class T>
+struct MaskOf {
+    using type = bool;
+};
+template <int N>
+struct MaskOf<LanesN<N>> {
+    using type = LaneMask<N>;
+};
+/// bool, LaneMask<N>, IntervalMask (interval.h), or the mask of T for Dual<T> (dual.h).
+template <class T>
+using mask_t = typename MaskOf<T>::type;
+
+/// The integers that hold the bits of a T: uint64_t, or a vector of them.
+template <class T>
+struct WordOf {
+    using type = std::uint64_t;
+};
+template <int N>
+struct WordOf<LanesN<N>> {
+    using type = typename LanesN<N>::Words;
+};
+template <class T>
+using word_t = typename WordOf<T>::type;
+
+/// The number c as a T. An Interval constant that is NaN is empty; a Dual constant has derivative 0.
+template <class T>
+inline T constant(double c) {
+    return T(c);
+}
+
+inline bool less(double a, double b) { return a < b; }
+inline bool less_equal(double a, double b) { return a <= b; }
+inline bool equal(double a, double b) { return a == b; }
+inline bool is_nan(double a) { return a != a; }
+/// Mask operations as functions, for every mask type; for bool, & and | draw a warning from clang.
+inline bool both(bool a, bool b) { return a && b; }
+inline bool either(bool a, bool b) { return a || b; }
+template <class M>
+inline M both(M a, M b) {
+    return a & b;
+}
+template <class M>
+inline M either(M a, M b) {
+    return a | b;
+}
+inline bool any(bool m) { return m; }
+inline bool all(bool m) { return m; }
+/// a where the mask holds, else b. The other value has no effect, NaN included.
+inline double select(bool m, double a, double b) { return m ? a : b; }
+
+/// The bits of each lane, and back.
+inline std::uint64_t bits_of(double x) { return to_bits(x); }
+template <int N>
+inline typename LanesN<N>::Words bits_of(LanesN<N> x) {
+    return reinterpret_cast<typename LanesN<N>::Words>(x.v);
+}
+template <class T>
+inline T float_of(word_t<T> w) {
+    if constexpr (sizeof(T) == sizeof(double)) {
+        return from_bits(w);
+    } else {
+        return T(reinterpret_cast<typename T::Vector>(w));
+    }
+}
+
+/// Replaces the lanes of `r` where `m` holds by f(x), a scalar function shared by all widths.
+template <class F>
+inline double patch(bool m, double r, double x, F f) {
+    return __builtin_expect(m, 0) ? f(x) : r;
+}
+template <int N, class F>
+inline LanesN<N> patch(LaneMask<N> m, LanesN<N> r, LanesN<N> x, F f) {
+    if (__builtin_expect(any(m), 0)) {
+        for (int i = 0; i < N; ++i) {
+            if (m[i]) r.set(i, f(x[i]));
+        }
+    }
+    return r;
+}
+/// The same for a scalar function of two arguments.
+template <class F>
+inline double patch(bool m, double r, double x, double y, F f) {
+    return __builtin_expect(m, 0) ? f(x, y) : r;
+}
+template <int N, class F>
+inline LanesN<N> patch(LaneMask<N> m, LanesN<N> r, LanesN<N> x, LanesN<N> y, F f) {
+    if (__builtin_expect(any(m), 0)) {
+        for (int i = 0; i < N; ++i) {
+            if (m[i]) r.set(i, f(x[i], y[i]));
+        }
+    }
+    return r;
+}
+
+FREP_MATH_CLOSE
