@@ -8,6 +8,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <unordered_map>
 #include <vector>
 
 #include "frep/base/source.h"
@@ -90,8 +91,12 @@ class Graph {
     /// Forgets every node made since the graph had `size` nodes.
     void truncate(std::size_t size);
 
+    /// A graph with the nodes marked in `needed` (closed under arguments), in the same order; `renamed`
+    /// receives their new numbers.
+    Graph copy_of(const std::vector<bool>& needed, std::span<NodeId> renamed) const;
+
   private:
-    static constexpr std::uint8_t point_flag = 1, parameter_flag = 2, nan_flag = 4;
+    static constexpr std::uint8_t point_flag = 1, parameter_flag = 2;
 
     NodeId insert(Op op, std::span<const NodeId> arguments, std::uint32_t payload, std::uint8_t flags);
     std::optional<NodeId> simplified(Op op, std::span<const NodeId> arguments, std::uint32_t payload);
@@ -99,7 +104,6 @@ class Graph {
     std::size_t hash(Op op, std::span<const NodeId> arguments, std::uint32_t payload) const;
     bool same(NodeId id, Op op, std::span<const NodeId> arguments, std::uint32_t payload) const;
     void grow_table();
-    std::uint32_t intern_constant(double value);
     std::uint32_t intern_block(std::vector<double> values);
 
     std::vector<Node> nodes_;
@@ -109,6 +113,7 @@ class Graph {
     std::vector<double> bound_;  ///< value where the node does not depend on the point
     std::vector<double> constants_;
     std::vector<std::vector<double>> blocks_;
+    std::unordered_multimap<std::uint64_t, std::uint32_t> block_index_;  ///< hash of a block -> its number
     std::vector<std::shared_ptr<const Region>> regions_;
     std::vector<NodeId> table_;  ///< open addressing; empty = no_node
     std::vector<double> parameters_;
