@@ -5,6 +5,10 @@
 
 #include "frep/math/bits.h"
 
+// Wide vectors are passed differently with and without AVX; isa.h keeps the two apart. Both compilers would
+// say so at every call, in every file that includes this one.
+#pragma GCC diagnostic ignored "-Wpsabi"
+
 FREP_MATH_OPEN
 
 /// The vector types of N 64-bit items, for N = 2, 4, 8.
