@@ -66,7 +66,7 @@ TEST_CASE("elementary functions stay within their stated ulp bounds") {
 
 TEST_CASE("trigonometric functions near multiples of pi/2") {
     for (const Case& c : cases) {
-        if (c.ours != fm::sin && c.ours != fm::cos && c.ours != fm::tan) continue;
+        if (c.exact != mpfr_sin && c.exact != mpfr_cos && c.exact != mpfr_tan) continue;
         Random random{7};
         double worst = 0, at = 0;
         for (long i = 0; i < oracle::count(20000); ++i) {
@@ -115,7 +115,9 @@ TEST_CASE("special values") {
     CHECK(fm::log(0.0) != fm::log(0.0));
     CHECK(fm::log(-1.0) != fm::log(-1.0));
     CHECK(fm::log10(1000.0) == 3.0);
-    for (const auto f : {fm::sin, fm::tan, fm::asin, fm::atan, fm::sinh, fm::tanh}) {
+    using Unary = double (*)(double);
+    for (const Unary f : {Unary(fm::sin), Unary(fm::tan), Unary(fm::asin), Unary(fm::atan), Unary(fm::sinh),
+                          Unary(fm::tanh)}) {
         CHECK(oracle::same(f(-0.0), -0.0));
         CHECK(oracle::same(f(0.0), 0.0));
     }
