@@ -9,6 +9,7 @@ namespace frep::lang {
 
 inline constexpr std::size_t source_limit = 16u << 20;  ///< bytes of a source file
 inline constexpr int nesting_limit = 256;               ///< expressions and statements inside one another
+inline constexpr std::size_t expression_limit = 4'000'000;  ///< nodes of the syntax tree
 inline constexpr std::int64_t array_item_limit = 1'000'000;  ///< items of all arrays of an object
 inline constexpr std::int64_t lowering_limit = 50'000'000;   ///< steps of the lowering
 inline constexpr int call_depth_limit = 1000;                ///< objects that call one another in a row
