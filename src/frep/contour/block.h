@@ -1,0 +1,111 @@
+// One block of the lattice: samples, edge nodes and polygons of its cells. A block owns the edges whose
+// lower sample is among its 8^3 samples; its cells also use edges of the next blocks, named by references
+// that contour.cpp resolves. So every node is computed once, and a mesh of any size is built from independent
+// parts. Tested by tests/unit/contour/contour_test.cpp.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "frep/contour/grid.h"
+#include "frep/contour/octree.h"
+#include "frep/contour/sampled_field.h"
+
+namespace frep::contouring {
+
+/// Edges of a block: local sample (z * 8 + y) * 8 + x, times 3, plus the axis.
+inline constexpr std::uint32_t edges_a_block = block_side * block_side * block_side * 3;
+/// One node of a polygon: an edge of this block or of one of the next blocks.
+struct PolygonNode {
+    std::uint16_t edge = 0;      ///< edge of the block `neighbour`
+    std::uint8_t neighbour = 0;  ///< bits: the next block in x, y, z
+    std::uint8_t cell_edge : 7;  ///< its number in the cell, 0..11
+    std::uint8_t is_last : 1;    ///< the polygon ends with this node
+};
+
+/// The part of a mesh that a block makes: its edge nodes, in the order of `edges`, and polygons cell by cell.
+/// A zero normal means: take the mean of the triangles' normals.
+struct BlockMesh {
+    std::vector<std::uint16_t> edges;  ///< ascending
+    std::vector<Vec3> positions;
+    std::vector<Vec3> normals;
+    std::vector<PolygonNode> polygons;
+};
+
+/// -gradient / |gradient|, the outward unit normal; the zero vector if the gradient is zero or not finite.
+Vec3 outward_normal(Vec3 gradient);
+
+struct BlockOptions {
+    bool cap = false;
+};
+
+/// Contours blocks, one after the other; keeps its scratch memory between them. Serves one thread.
+class BlockContourer {
+  public:
+    BlockContourer(const Grid& grid, SampledField& field, const BlockOptions& options)
+        : grid_(grid), field_(field), options_(options) {}
+
+    /// The mesh of the block with this code; null when there is none. Adds to the tallies below.
+    std::unique_ptr<BlockMesh> contour(std::uint64_t code);
+
+    UndefinedTally undefined;
+    std::array<bool, 6> touches{};
+
+  private:
+    static constexpr std::uint32_t lattice_side = block_side + 1;
+    using Local = std::array<std::uint32_t, 3>;  ///< sample of the lattice, 0..8
+
+    /// An edge being bisected: its lower end and direction, and the parameters of the bracket's ends.
+    struct Bracket {
+        Vec3 lower;
+        double upper = 0;  ///< coordinate of the upper end along `axis`
+        int axis = 0;
+        double inside = 0, outside = 0;  ///< parameters 0..1
+        bool wall = false;               ///< the outside end is undefined
+        std::uint32_t node = 0;
+    };
+
+    static std::uint32_t lattice_index(const Local& l) {
+        return (l[2] * lattice_side + l[1]) * lattice_side + l[0];
+    }
+    std::uint32_t with_layer(std::size_t axis, std::uint32_t local) const { return lo_[axis] + local; }
+    bool is_layer(std::size_t axis, std::uint32_t local) const {
+        const std::uint32_t e = with_layer(axis, local);
+        return e == 0 || e > grid_.cells[axis] + 1;
+    }
+    bool is_layer(const Local& l) const {
+        return is_layer(0, l[0]) || is_layer(1, l[1]) || is_layer(2, l[2]);
+    }
+    Vec3 sample_point(const Local& l) const;
+
+    bool sample(std::uint64_t code);
+    void note_sample(const Local& l, double value, std::uint64_t code);
+    void collect_nodes();
+    void add_node(const Local& lower, std::size_t axis);
+    void add_cap_node(const Local& inside);
+    /// The edge whose node closes the shape at an inside sample of the box's boundary: its lower end and
+    /// axis.
+    Local cap_edge(const Local& inside, std::size_t& axis) const;
+    void bisect();
+    void evaluate_brackets();
+    void set_positions();
+    void take_normals();
+    void add_cells();
+    void add_cell(const Local& corner, const std::array<double, 8>& values);
+    PolygonNode polygon_node(const Local& cell, std::uint8_t cell_edge) const;
+
+    const Grid& grid_;
+    SampledField& field_;
+    BlockOptions options_;
+
+    std::array<std::uint32_t, 3> lo_{};
+    std::array<double, lattice_side * lattice_side * lattice_side> values_{};
+    std::vector<std::uint32_t> sampled_;
+    std::vector<double> x_, y_, z_, out_, gx_, gy_, gz_;
+    std::vector<Bracket> brackets_;
+    BlockMesh mesh_;
+};
+
+}  // namespace frep::contouring

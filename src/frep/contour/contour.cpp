@@ -1,0 +1,109 @@
+// contour_cells: find the blocks near the surface, contour each, join them. See contour.h.
+#include "frep/contour/contour.h"
+
+#include <algorithm>
+#include <atomic>
+#include <mutex>
+
+#include "frep/base/parallel.h"
+#include "frep/contour/assemble.h"
+#include "frep/contour/block.h"
+#include "frep/contour/field_pool.h"
+#include "frep/contour/octree.h"
+
+namespace frep {
+
+namespace {
+
+using namespace contouring;
+
+constexpr std::size_t blocks_a_task = 16;
+/// Estimated peak memory for a vertex with its triangles: in its block, and in the mesh.
+constexpr std::size_t bytes_a_vertex = 140;
+/// The share of the memory limit that the list of blocks may take, at 16 bytes a block.
+constexpr std::size_t bytes_a_block = 16 * 4;
+
+/// What the blocks gave.
+struct Sampling {
+    std::vector<std::unique_ptr<BlockMesh>> parts;
+    UndefinedTally undefined;
+    std::array<bool, 6> touches{};
+    bool over_limit = false;
+};
+
+Sampling sample_blocks(const Grid& grid, const std::vector<std::uint64_t>& blocks, FieldPool& fields,
+                       const ContourOptions& options, const Job& job) {
+    Sampling result;
+    result.parts.resize(blocks.size());
+    const std::size_t tasks = (blocks.size() + blocks_a_task - 1) / blocks_a_task;
+    std::atomic<std::size_t> vertices{0};
+    std::atomic<bool> over_limit{false};
+    std::size_t tasks_done = 0;
+    std::mutex mutex;  // guards result's tallies and tasks_done
+    parallel_for(job, tasks, [&](std::size_t t) {
+        if (over_limit) return;
+        const FieldPool::Lease field = fields.borrow();
+        BlockContourer contourer(grid, *field, {.cap = options.cap});
+        std::size_t made = 0;
+        const std::size_t end = std::min((t + 1) * blocks_a_task, blocks.size());
+        for (std::size_t i = t * blocks_a_task; i < end; ++i) {
+            result.parts[i] = contourer.contour(blocks[i]);
+            if (result.parts[i]) made += result.parts[i]->edges.size();
+        }
+        if ((vertices += made) > options.memory_limit / bytes_a_vertex) over_limit = true;
+        const std::lock_guard lock(mutex);
+        result.undefined.add(contourer.undefined);  // sums and minima: the order of arrival does not matter
+        for (std::size_t s = 0; s < 6; ++s) result.touches[s] = result.touches[s] || contourer.touches[s];
+        ++tasks_done;
+        if (tasks_done % 64 == 0 || tasks_done == tasks) {
+            job.report(0.9 * static_cast<double>(tasks_done) / static_cast<double>(tasks));
+        }
+    });
+    result.over_limit = over_limit;
+    return result;
+}
+
+/// The point of the first undefined sample of a tally.
+Vec3 place_of(const UndefinedTally& tally, const Grid& grid) {
+    const std::array<std::uint32_t, 3> block = morton_decode(tally.block);
+    const std::uint32_t at = tally.local;
+    return grid.point(block[0] * block_side + at % block_side - 1,
+                      block[1] * block_side + at / block_side % block_side - 1,
+                      block[2] * block_side + at / (block_side * block_side) - 1);
+}
+
+}  // namespace
+
+Result<ContourResult> contour_cells(const SampledField& field, const ContourOptions& options,
+                                    const Job& job) {
+    const Result<Grid> grid = make_grid(options.bounds, options.cells, options.cell_length);
+    if (!grid) return grid.error();
+    FieldPool fields(field);
+    Result<OctreeResult> octree = find_blocks(
+        *grid, fields,
+        {.cap = options.cap, .prune = options.prune, .max_nodes = options.memory_limit / bytes_a_block}, job);
+    if (!octree) return octree.error();
+    Sampling sampling = sample_blocks(*grid, octree->blocks, fields, options, job);
+    if (job.cancelled()) return Error{ErrorKind::cancelled, "contouring was cancelled"};
+    if (sampling.over_limit) {
+        return Error{ErrorKind::over_limit,
+                     "the mesh would take more memory than the limit; use fewer cells"};
+    }
+    Result<Mesh> mesh = assemble(octree->blocks, std::move(sampling.parts), fields, job);
+    if (!mesh) return mesh.error();
+
+    ContourResult result;
+    result.mesh = std::move(*mesh);
+    result.grid = *grid;
+    result.sampled_blocks = octree->blocks.size();
+    sampling.undefined.add(octree->undefined);
+    result.undefined_points = sampling.undefined.count;
+    if (result.undefined_points > 0) result.first_undefined = place_of(sampling.undefined, *grid);
+    for (std::size_t s = 0; s < 6; ++s) result.touches[s] = sampling.touches[s] || octree->touches[s];
+    job.report(1);
+    return result;
+}
+
+std::array<const char*, 6> side_names() { return {"-x", "+x", "-y", "+y", "-z", "+z"}; }
+
+}  // namespace frep

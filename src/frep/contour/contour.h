@@ -1,0 +1,46 @@
+// contour_cells: the surface F = 0 of a field as a triangle mesh, by the basic polygonization algorithm on
+// uniform cubic cells (Pasko, Pilyugin, Pokrovskiy 1986/1988; thesis 1.5.3). A point is inside where F is
+// defined and >= 0. The mesh is a closed, oriented manifold except where the box cuts it; with the cap it is
+// closed there too. Features smaller than a cell may be lost. The same bytes for every number of threads,
+// with and without pruning. Tested by tests/unit/contour/contour_test.cpp.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+
+#include "frep/base/job.h"
+#include "frep/base/result.h"
+#include "frep/contour/grid.h"
+#include "frep/contour/sampled_field.h"
+#include "frep/geom/mesh.h"
+
+namespace frep {
+
+struct ContourOptions {
+    Box3 bounds = Box3::cube(10);
+    int cells = 96;          ///< cubic cells along the longest side
+    double cell_length = 0;  ///< > 0: the side of a cell, in place of `cells`
+    bool cap = false;        ///< close the shape where the box cuts it
+    bool prune = true;       ///< skip blocks proved empty or full by intervals; changes no byte of the result
+    std::size_t memory_limit = std::size_t{8} << 30;  ///< bytes that the run may take, estimated
+};
+
+struct ContourResult {
+    Mesh mesh;  ///< with outward unit normals
+    Grid grid;
+    std::uint64_t undefined_points = 0;   ///< samples of the lattice where F is undefined
+    std::optional<Vec3> first_undefined;  ///< the first of them, in block order
+    std::array<bool, 6> touches{};        ///< the shape reaches the side -x +x -y +y -z +z of the grid
+    std::size_t sampled_blocks = 0;       ///< blocks of 8^3 samples that were evaluated
+};
+
+/// Errors: invalid_argument for bad bounds or cell sizes (see make_grid), over_limit for too many cells or
+/// vertices, or more memory than the limit; cancelled.
+Result<ContourResult> contour_cells(const SampledField& field, const ContourOptions& options, const Job& job);
+
+/// The side names in the order of ContourResult::touches: "-x", "+x", ...
+std::array<const char*, 6> side_names();
+
+}  // namespace frep

@@ -1,0 +1,70 @@
+// SampledField: what contouring asks of a field: values, gradients and signs over boxes in 3-D space, in
+// batches. The adaptor over eval's Evaluator puts a model of n coordinates into space (`--map`: a coordinate
+// is an axis or frozen) and shifts by the iso value. One object serves one thread; clone() makes one for
+// another. Tested by tests/unit/contour/sampled_field_test.cpp.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "frep/base/result.h"
+#include "frep/eval/evaluator.h"
+#include "frep/math/vec.h"
+
+namespace frep {
+
+/// Points of space as three arrays of one length, in model units.
+struct PointSpans {
+    std::span<const double> x, y, z;
+    std::size_t size() const { return x.size(); }
+};
+
+/// Three arrays that receive partial derivatives.
+struct GradientSpans {
+    std::span<double> x, y, z;
+};
+
+/// What the function may be somewhere in a box. Never says "no" wrongly; may say "yes" for nothing.
+struct SignRange {
+    bool can_be_inside = true;     ///< defined and >= 0
+    bool can_be_outside = true;    ///< defined and < 0
+    bool can_be_undefined = true;  ///< NaN
+};
+
+class SampledField {
+  public:
+    virtual ~SampledField() = default;
+    virtual std::unique_ptr<SampledField> clone() const = 0;
+    /// out[p] = F at point p; NaN where undefined.
+    virtual void values(const PointSpans& points, std::span<double> out) = 0;
+    /// values[p] = F and out.*[p] = its partial derivatives by x, y, z.
+    virtual void gradients(const PointSpans& points, std::span<double> values, const GradientSpans& out) = 0;
+    /// out[b] = the signs that F may take in the closed box b.
+    virtual void ranges(std::span<const Box3> boxes, std::span<SignRange> out) = 0;
+};
+
+/// Where a coordinate of a model comes from: an axis of space or a frozen value.
+struct MappedCoordinate {
+    int axis = -1;     ///< 0, 1, 2 for x, y, z; -1: frozen
+    double value = 0;  ///< of a frozen coordinate
+};
+
+/// One entry for each coordinate of the model, in order. The same axis may feed several coordinates.
+struct AxisMap {
+    std::vector<MappedCoordinate> coordinates;
+
+    /// The first three coordinates are x, y, z; further ones are frozen at 0.
+    static AxisMap standard(int count);
+    /// True when a coordinate takes this axis (0, 1, 2).
+    bool uses(int axis) const;
+};
+
+/// F(mapped point) - iso as a field in space. Takes the evaluator over. Errors: invalid_argument when the map
+/// has not one entry for each coordinate of the evaluator, an axis other than -1..2, or a number that is not
+/// finite.
+Result<std::unique_ptr<SampledField>> make_sampled_field(std::unique_ptr<Evaluator> evaluator,
+                                                         const AxisMap& map, double iso = 0);
+
+}  // namespace frep
