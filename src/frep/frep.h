@@ -1,0 +1,54 @@
+// The facade: everything a program needs to read HyperFun models, evaluate fields and make meshes.
+// A Field is a real function of n coordinates; its shape is where the value is >= 0. See
+// docs/architecture.md.
+//
+//     auto model = frep::compile_file("pot.hf");
+//     auto mesh = frep::contour(model->field().value(), {.bounds = frep::Box3::cube(60)});
+//     frep::write("pot.stl", mesh->mesh);
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "frep/base/diagnostic.h"
+#include "frep/base/job.h"
+#include "frep/base/result.h"
+#include "frep/contour/automatic_bounds.h"
+#include "frep/contour/contour.h"
+#include "frep/contour/sampled_field.h"
+#include "frep/eval/evaluator.h"
+#include "frep/field/expression.h"
+#include "frep/field/field.h"
+#include "frep/geom/mesh.h"
+#include "frep/geom/mesh_check.h"
+#include "frep/io/file.h"
+#include "frep/io/mesh_format.h"
+#include "frep/lang/explain.h"
+#include "frep/lang/model.h"
+#include "frep/shapes/library.h"
+
+namespace frep {
+
+/// The version of the library, "0.1.0", and the numeric profile: raised whenever a value changes
+/// (docs/numerics.md).
+std::string_view version();
+int numeric_profile();
+
+/// The model in HyperFun `text`; `name` stands in messages. Errors: invalid_model with the rendered
+/// diagnostics.
+Result<Model> compile(std::string_view text, std::string name = "model.hf");
+
+/// The model in the file `path`. Files that it names are read from its folder only (no links, 1 GiB at most).
+/// Errors: as compile(); io and over_limit when the file cannot be read.
+Result<Model> compile_file(const std::string& path);
+
+/// Reads a file that a model in `folder` names: inside the folder, no links on the way, 1 GiB at most.
+ReadFile files_of_folder(std::string folder);
+
+/// The surface of a field of up to three coordinates (further ones frozen at 0) as a triangle mesh.
+Result<ContourResult> contour(const Field& field, const ContourOptions& options = {}, const Job& job = {});
+
+/// Writes a mesh; the format follows the extension (.off .ply .stl). Errors: invalid_argument, io.
+Status write(const std::string& path, const Mesh& mesh, const MeshEncodeOptions& options = {});
+
+}  // namespace frep
