@@ -27,8 +27,9 @@ inline ExpParts<T> exp_parts(T x, T low) {
     const T shifted = x * c::log2_e + to_integer;
     const T k = shifted - to_integer;
     const T near = x - k * c::ln2_1, back = k * c::ln2_2;
-    const T r = near - back;
-    const T rest = ((near - r) - back) + low;
+    const T first = near - back;
+    const Pair<T> sum = fast_sum(first, ((near - first) - back) + low);
+    const T r = sum.hi, rest = sum.lo;
     return {r, rest + (r * r * polynomial(r, c::exp_tail) + r * rest),
             bits_of(shifted) - to_bits(to_integer)};
 }

@@ -142,7 +142,8 @@ Interval upper_angle(Interval y, Interval x) {
     double low = atan2(x.hi > 0.0 ? y.lo : y.hi, x.hi);
     const double high = atan2(x.lo >= 0.0 ? y.hi : y.lo, x.lo);
     if (y.lo == 0.0 && x.contains(0.0)) low = 0.0;  // the origin has angle 0
-    const double top = high == 0.0 ? 0.0 : least(step_up(high, ulp_bound::atan2 + 1), next_up(pi));
+    const double top =
+        y.hi == 0.0 && x.lo >= 0.0 ? 0.0 : least(step_up(high, ulp_bound::atan2 + 1), next_up(pi));
     return {most(0.0, step_down(low, ulp_bound::atan2 + 1)), top};
 }
 }  // namespace
@@ -156,7 +157,7 @@ Interval atan2(Interval y, Interval x) {
     const double low = atan2(y.lo, x.lo), high = y.hi > 0.0 ? atan2(y.hi, x.lo) : 0.0;
     const double limit = next_up(half_pi);
     return {most(-limit, step_down(low, ulp_bound::atan2 + 1)),
-            high == 0.0 ? 0.0 : least(limit, step_up(high, ulp_bound::atan2 + 1)), undefined};
+            y.hi == 0.0 ? 0.0 : least(limit, step_up(high, ulp_bound::atan2 + 1)), undefined};
 }
 
 namespace {

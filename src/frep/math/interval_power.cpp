@@ -1,6 +1,8 @@
 // Intervals of powi and pow. Method: chains whose products are stepped outward, by parity and sign of the
 // base; fractional exponents by the corners of the box, since e ln b is bilinear in e and ln b. Checked by
 // tests/unit/math/interval_test.cpp and itf1788_test.cpp.
+#include <initializer_list>
+
 #include "frep/math/interval.h"
 #include "frep/math/power.h"
 
