@@ -171,8 +171,9 @@ double step_up_in_sign(double x, int n) {
 template <class F>
 Interval r_corners(const Interval& a, const Interval& b, F f) {
     if (a.is_empty() || b.is_empty()) return Interval::empty();
-    const double low = -step_up_in_sign(-f(a.lo, b.lo), ulp_bound::r_function + 1);
-    const double high = step_up_in_sign(f(a.hi, b.hi), ulp_bound::r_function + 1);
+    const int steps = 2 * ulp_bound::r_function + 1;
+    const double low = -step_up_in_sign(-f(a.lo, b.lo), steps);
+    const double high = step_up_in_sign(f(a.hi, b.hi), steps);
     return {most(low, -r_limit), least(high, r_limit), a.maybe_undefined || b.maybe_undefined};
 }
 }  // namespace

@@ -36,7 +36,7 @@ Interval power_of_positive(double lo, double hi, int n) {
     const double low = chain_bound(lo, size, false), high = chain_bound(hi, size, true);
     if (n > 0) return {low, high};
     const double end = low > 0.0 ? next_up(1.0 / low) : infinity;
-    return {high == 0.0 ? max_finite : most(0.0, next_down(1.0 / high)), end};
+    return {hi == 0.0 ? infinity : most(0.0, next_down(1.0 / high)), end};
 }
 /// The hull of two parts of one result: an empty part leaves no mark.
 Interval join(const Interval& a, const Interval& b) {
