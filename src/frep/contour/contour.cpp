@@ -20,8 +20,8 @@ using namespace contouring;
 constexpr std::size_t blocks_a_task = 16;
 /// Estimated peak memory for a vertex with its triangles: in its block, and in the mesh.
 constexpr std::size_t bytes_a_vertex = 140;
-/// The share of the memory limit that the list of blocks may take, at 16 bytes a block.
-constexpr std::size_t bytes_a_block = 16 * 4;
+/// Estimated memory for a block that is looked at, most of which turn out empty.
+constexpr std::size_t bytes_a_block = 64;
 
 /// What the blocks gave.
 struct Sampling {

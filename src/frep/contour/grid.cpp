@@ -1,8 +1,9 @@
 // Implementation of grid.h.
 #include "frep/contour/grid.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
-#include <string>
 
 namespace frep {
 

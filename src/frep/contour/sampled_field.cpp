@@ -1,6 +1,8 @@
 // The adaptor from eval's Evaluator to SampledField; see sampled_field.h.
 #include "frep/contour/sampled_field.h"
 
+#include <fmt/format.h>
+
 #include <array>
 #include <utility>
 
@@ -131,8 +133,8 @@ Result<std::unique_ptr<SampledField>> make_sampled_field(std::unique_ptr<Evaluat
     };
     const auto entries = static_cast<int>(map.coordinates.size());
     if (entries != evaluator->coordinates()) {
-        return fail("the map has " + std::to_string(entries) + " entries for a model of " +
-                    std::to_string(evaluator->coordinates()) + " coordinates");
+        return fail(fmt::format("the map has {} entries for a model of {} coordinates", entries,
+                                evaluator->coordinates()));
     }
     for (const MappedCoordinate& c : map.coordinates) {
         if (c.axis < -1 || c.axis > 2) return fail("the map names an axis other than x, y and z");

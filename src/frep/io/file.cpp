@@ -2,6 +2,7 @@
 #include "frep/io/file.h"
 
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -16,11 +17,12 @@ namespace frep {
 namespace {
 
 Error io_error(const std::string& what, const std::string& path, int code) {
-    return {ErrorKind::io, "cannot " + what + " '" + path + "': " + std::generic_category().message(code)};
+    return {ErrorKind::io,
+            fmt::format("cannot {} '{}': {}", what, path, std::generic_category().message(code))};
 }
 
 Error io_error(const std::string& what, const std::string& path, const std::string& cause) {
-    return {ErrorKind::io, "cannot " + what + " '" + path + "': " + cause};
+    return {ErrorKind::io, fmt::format("cannot {} '{}': {}", what, path, cause)};
 }
 
 /// A file descriptor that closes itself.
@@ -100,7 +102,7 @@ int create_beside(const std::string& target, std::string& name) {
     const std::size_t slash = target.find_last_of('/');
     const std::string folder = slash == std::string::npos ? "" : target.substr(0, slash + 1);
     for (int attempt = 0; attempt < 1000; ++attempt) {
-        name = folder + ".frep-" + std::to_string(::getpid()) + "-" + std::to_string(attempt) + ".tmp";
+        name = fmt::format("{}.frep-{}-{}.tmp", folder, ::getpid(), attempt);
         const int fd = ::open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
         if (fd >= 0 || errno != EEXIST) return fd;
     }
@@ -134,8 +136,8 @@ Result<std::string> read_file(const std::string& path, std::size_t max_bytes) {
     if (::fstat(file.get(), &info) != 0) return io_error("read", path, errno);
     if (S_ISDIR(info.st_mode)) return io_error("read", path, EISDIR);
     if (!S_ISREG(info.st_mode)) return io_error("read", path, "it is not a regular file");
-    const Error too_long{ErrorKind::over_limit, "'" + path + "' is longer than the limit of " +
-                                                    std::to_string(max_bytes) + " bytes"};
+    const Error too_long{ErrorKind::over_limit,
+                         fmt::format("'{}' is longer than the limit of {} bytes", path, max_bytes)};
     if (info.st_size > 0 && static_cast<std::size_t>(info.st_size) > max_bytes) return too_long;
     std::string bytes;
     const std::size_t probe = max_bytes < SIZE_MAX ? max_bytes + 1 : max_bytes;

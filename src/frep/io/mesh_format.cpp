@@ -1,6 +1,8 @@
 // Encoders of the mesh formats; see mesh_format.h for the formats and their test.
 #include "frep/io/mesh_format.h"
 
+#include <fmt/format.h>
+
 #include <array>
 #include <cstdint>
 #include <limits>
@@ -25,7 +27,7 @@ Status check_coordinates(const Mesh& mesh, MeshFormat format) {
         const Vec3& v = mesh.vertices[i];
         if (fits(v.x, limit) && fits(v.y, limit) && fits(v.z, limit)) continue;
         return Error{ErrorKind::invalid_argument,
-                     "vertex " + std::to_string(i) + " has a coordinate that the file format cannot hold"};
+                     fmt::format("vertex {} has a coordinate that the file format cannot hold", i)};
     }
     return {};
 }
@@ -172,8 +174,8 @@ Result<MeshFormat> mesh_format_from_path(std::string_view path) {
     for (const Extension& known : extensions) {
         if (extension == known.name) return known.format;
     }
-    std::string message = "'" + std::string(path) + "' has no extension of a known mesh format; known are";
-    for (const Extension& known : extensions) message += " " + std::string(known.name);
+    std::string message = fmt::format("'{}' has no extension of a known mesh format; known are", path);
+    for (const Extension& known : extensions) message += fmt::format(" {}", known.name);
     return Error{ErrorKind::invalid_argument, message};
 }
 
