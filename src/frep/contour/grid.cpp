@@ -64,8 +64,8 @@ Result<Grid> make_grid(const Box3& bounds, int count, double cell_length) {
         const double side = hi[a] - lo[a];
         const double cells = cells_to_cover(side, grid.cell);
         if (cells > max_grid_cells) {
-            return Error{ErrorKind::over_limit, "the grid would have more than " +
-                                                    std::to_string(max_grid_cells) + " cells along a side"};
+            return Error{ErrorKind::over_limit,
+                         fmt::format("the grid would have more than {} cells along a side", max_grid_cells)};
         }
         grid.cells[a] = static_cast<std::uint32_t>(cells);
         origin[a] = lo[a] - 0.5 * (cells * grid.cell - side);
