@@ -1,10 +1,12 @@
 #!/usr/bin/env python3
 """Writes src/frep/math/coefficients.h: the constants of the math kernels, from nothing but integers.
 
-Every polynomial is the interpolant of a power series at Chebyshev nodes, computed with 60 digits, its degree the
-least one whose error on the interval stays under the bound given; the coefficients are then rounded to binary64.
-Long constants (pi/2, ln 2, 2/pi) come from series in exact integer arithmetic, cut into parts with trailing zeros.
-Use: tools/kernel_coefficients.py > src/frep/math/coefficients.h   (checked by tests/unit/math/kernels_test.cpp)
+Every polynomial is the interpolant of a power series at Chebyshev nodes, computed with 70 digits, its
+degree the least one whose error on the interval stays under the bound given; the coefficients are then
+rounded to binary64. Long constants (pi/2, ln 2, 2/pi) come from series in exact integer arithmetic, cut into
+parts with trailing zeros. Checked by tests/unit/math/kernels_test.cpp. Use, then clang-format:
+
+    tools/kernel_coefficients.py > src/frep/math/coefficients.h
 """
 from decimal import Decimal, getcontext
 from fractions import Fraction
@@ -114,8 +116,8 @@ def parts(names, meaning, x, sizes):
 
 
 def main():
-    print("// The constants of the math kernels. Written by tools/kernel_coefficients.py (method there); do not edit.")
-    print("// Checked by tests/unit/math/kernels_test.cpp against MPFR.\n#pragma once\n\n#include <cstdint>\n")
+    print("// The constants of the math kernels. Written by tools/kernel_coefficients.py (method there).")
+    print("// Do not edit. Checked by tests/unit/math/kernels_test.cpp against MPFR.\n#pragma once\n\n#include <cstdint>\n")
     print('#include "frep/math/isa.h"\n\nFREP_MATH_OPEN\nnamespace coefficients {\n')
     polynomial("exp_tail", "(e^z - 1 - z)/z^2", series(lambda k: Fraction(1, factorial(k + 2)), 40),
                "-0.3467", "0.3467", "2e-18")

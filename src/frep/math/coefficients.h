@@ -1,5 +1,5 @@
-// The constants of the math kernels. Written by tools/kernel_coefficients.py (method there); do not edit.
-// Checked by tests/unit/math/kernels_test.cpp against MPFR.
+// The constants of the math kernels. Written by tools/kernel_coefficients.py (method there).
+// Do not edit. Checked by tests/unit/math/kernels_test.cpp against MPFR.
 #pragma once
 
 #include <cstdint>

@@ -18,7 +18,7 @@ inline constexpr int asin = 1, acos = 1, atan = 1, atan2 = 1;
 inline constexpr int sinh = 1, cosh = 1, tanh = 1;
 inline constexpr int hypot = 2;
 inline constexpr int pow = 2;         ///< exponents that do not take the chain
-inline constexpr int r_function = 3;  ///< r_and, r_or: intervals step 2 * 3 + 1, see interval.h
+inline constexpr int r_function = 4;  ///< r_and, r_or; intervals step 2 * 4 + 1, see interval.h
 /// powi(b, n) for n > 0 without underflow on the way: each product may double the error before it.
 constexpr int powi(int n) { return n < 0 ? -n + 1 : (n > 1 ? n - 1 : 1); }
 }  // namespace ulp_bound

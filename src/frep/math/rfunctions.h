@@ -20,7 +20,7 @@ inline T hypot_ordered(T hi, T lo) {
 }
 
 /// R-conjunction f1 + f2 - sqrt(f1^2 + f2^2), the intersection of solids: sign(r_and(a,b)) = sign(min(a,b)).
-/// NaN if either is NaN; saturated at +-r_limit. Error <= 3 ulp.
+/// NaN if either is NaN; saturated at +-r_limit. Error <= 4 ulp.
 template <LaneType T>
 inline T r_and(T a, T b) {
     const auto swap = less(b, a);
@@ -37,7 +37,7 @@ inline T r_and(T a, T b) {
     return select(is_nan(a), a, select(is_nan(b), b, r));
 }
 /// R-disjunction f1 + f2 + sqrt(f1^2 + f2^2), the union of solids: sign(r_or(a,b)) = sign(max(a,b)). By
-/// De Morgan -r_and(-a,-b). Error <= 3 ulp.
+/// De Morgan -r_and(-a,-b). Error <= 4 ulp.
 template <LaneType T>
 inline T r_or(T a, T b) {
     return -r_and(-a, -b);

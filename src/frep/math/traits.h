@@ -64,13 +64,18 @@ template <int N>
 inline typename LanesN<N>::Words bits_of(LanesN<N> x) {
     return reinterpret_cast<typename LanesN<N>::Words>(x.v);
 }
+/// Makes a T of its bits; a new lane type specialises it.
+template <class T>
+struct FloatOf {
+    static T of(word_t<T> w) { return T(reinterpret_cast<typename T::Vector>(w)); }
+};
+template <>
+struct FloatOf<double> {
+    static double of(std::uint64_t w) { return from_bits(w); }
+};
 template <class T>
 inline T float_of(word_t<T> w) {
-    if constexpr (sizeof(T) == sizeof(double)) {
-        return from_bits(w);
-    } else {
-        return T(reinterpret_cast<typename T::Vector>(w));
-    }
+    return FloatOf<T>::of(w);
 }
 
 /// Replaces the lanes of `r` where `m` holds by f(x), a scalar function shared by all widths.

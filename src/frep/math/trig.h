@@ -73,7 +73,7 @@ inline T tan_of_angle(const Angle<T>& a) {
     const Pair<T> q = quotient(n, d);
     return q.hi + q.lo;
 }
-/// The shared scalar path for |x| > 2^20 and NaN.
+/// The shared scalar path for |x| > 2^20.
 inline Angle<double> huge_angle(double x) {
     const ReducedAngle a = reduce_huge_angle(x);
     return {a.rest, static_cast<std::uint64_t>(a.quadrant)};
@@ -84,7 +84,7 @@ inline double tan_huge(double x) { return abs(x) < infinity ? tan_of_angle(huge_
 
 template <LaneType T>
 inline auto is_huge_angle(T x) {
-    return !less_equal(abs(x), T(largest_fast_angle));
+    return less(T(largest_fast_angle), abs(x));
 }
 /// Below 2^-28 the sine and the tangent are x to half an ulp; this keeps -0 and the denormals.
 template <LaneType T>

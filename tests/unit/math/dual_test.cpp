@@ -28,29 +28,15 @@ struct Binary {
     DL (*lanes)(const DL&, const DL&);
     double low, high;
 };
-#define ONE(f, a, b)                                                                                        \
-    {                                                                                                       \
-#f, [](double x) { return fm::f(x); }, [](const D&                                                  \
-                                                      x) { return fm::f(x); },                              \
-                                                                            [](const DL&                    \
-                                                                                   x) { return fm::f(x); }, \
-                                                                                                         a, \
-                                                                                                         b  \
-    }
-#define TWO(f, a, b)                                                                                           \
-    {                                                                                                          \
-#f, [](double x,                                                                                       \
-               double                                                                                          \
-                   y) { return fm::f(x, y); },                                                                 \
-                                            [](const D& x,                                                     \
-                                               const D&                                                        \
-                                                   y) { return fm::f(x, y); },                                 \
-                                                                            [](const DL& x,                    \
-                                                                               const DL&                       \
-                                                                                   y) { return fm::f(x, y); }, \
-                                                                                                            a, \
-                                                                                                            b  \
-    }
+// clang-format off
+#define ONE(f, a, b)                                                               \
+    {#f, [](double x) { return fm::f(x); }, [](const D& x) { return fm::f(x); },   \
+     [](const DL& x) { return fm::f(x); }, a, b}
+#define TWO(f, a, b)                                                               \
+    {#f, [](double x, double y) { return fm::f(x, y); },                           \
+     [](const D& x, const D& y) { return fm::f(x, y); },                           \
+     [](const DL& x, const DL& y) { return fm::f(x, y); }, a, b}
+// clang-format on
 const Unary unary[] = {ONE(sqrt, 0.1, 9),
                        ONE(square, -3, 3),
                        ONE(abs, 0.1, 3),
