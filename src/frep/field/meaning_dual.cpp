@@ -1,3 +1,4 @@
 #include "frep/field/meaning_impl.h"
 
-template math::Dual<double> frep::meaning<math::Dual<double>>(frep::Op, std::span<const math::Dual<double>>, std::span<const double>);
+template frep::math::Dual<double> frep::meaning<frep::math::Dual<double>>(
+    frep::Op, std::span<const frep::math::Dual<double>>, std::span<const double>);

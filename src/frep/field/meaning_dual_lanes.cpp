@@ -1,3 +1,4 @@
 #include "frep/field/meaning_impl.h"
 
-template math::Dual<math::Lanes> frep::meaning<math::Dual<math::Lanes>>(frep::Op, std::span<const math::Dual<math::Lanes>>, std::span<const double>);
+template frep::math::Dual<frep::math::Lanes> frep::meaning<frep::math::Dual<frep::math::Lanes>>(
+    frep::Op, std::span<const frep::math::Dual<frep::math::Lanes>>, std::span<const double>);

@@ -1,3 +1,5 @@
 #include "frep/field/meaning_impl.h"
 
-template math::Interval frep::meaning<math::Interval>(frep::Op, std::span<const math::Interval>, std::span<const double>);
+template frep::math::Interval frep::meaning<frep::math::Interval>(frep::Op,
+                                                                  std::span<const frep::math::Interval>,
+                                                                  std::span<const double>);

@@ -1,3 +1,4 @@
 #include "frep/field/meaning_impl.h"
 
-template math::Lanes frep::meaning<math::Lanes>(frep::Op, std::span<const math::Lanes>, std::span<const double>);
+template frep::math::Lanes frep::meaning<frep::math::Lanes>(frep::Op, std::span<const frep::math::Lanes>,
+                                                            std::span<const double>);

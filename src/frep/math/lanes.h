@@ -1,118 +1,184 @@
-// LanesN<N>: N doubles that go through one computation together, as a GCC/clang vector; LaneMask<N>: N truth
-// values. Every operation is the IEEE operation of each lane, so lanes and scalars agree bit for bit.
-// Checked by tests/unit/math/lanes_test.cpp.
+// LanesN<N>: N doubles that go through one computation together; LaneMask<N>: N truth values; LaneWords<N>:
+// their bits. Every operation is the IEEE operation of each lane, so lanes and scalars agree bit for bit.
+// Method: GCC/clang vectors (pack.h). Checked by tests/unit/math/lanes_test.cpp.
 #pragma once
 
 #include "frep/math/bits.h"
-
-// Wide vectors are passed differently with and without AVX; isa.h keeps the two apart. Both compilers would
-// say so at every call, in every file that includes this one.
-#pragma GCC diagnostic ignored "-Wpsabi"
+#include "frep/math/pack.h"
 
 FREP_MATH_OPEN
-
-/// The vector types of N 64-bit items, for N = 2, 4, 8.
-template <int N>
-struct VectorsOf;
-template <>
-struct VectorsOf<2> {
-    typedef double Reals __attribute__((vector_size(16)));
-    typedef std::int64_t Integers __attribute__((vector_size(16)));
-    typedef std::uint64_t Words __attribute__((vector_size(16)));
-};
-template <>
-struct VectorsOf<4> {
-    typedef double Reals __attribute__((vector_size(32)));
-    typedef std::int64_t Integers __attribute__((vector_size(32)));
-    typedef std::uint64_t Words __attribute__((vector_size(32)));
-};
-template <>
-struct VectorsOf<8> {
-    typedef double Reals __attribute__((vector_size(64)));
-    typedef std::int64_t Integers __attribute__((vector_size(64)));
-    typedef std::uint64_t Words __attribute__((vector_size(64)));
-};
 
 /// N truth values, each all ones or all zeros.
 template <int N>
 struct LaneMask {
-    using Integers = typename VectorsOf<N>::Integers;
-    Integers v;
+    using Items = Pack<std::int64_t, N>;
+    Items items;
 
     /// Truth value of lane i.
-    bool operator[](int i) const { return v[i] != 0; }
+    bool operator[](int i) const { return items.get(i) != 0; }
     /// Sets lane i.
-    void set(int i, bool b) { v[i] = b ? -1 : 0; }
-    friend LaneMask operator&(LaneMask a, LaneMask b) { return {a.v & b.v}; }
-    friend LaneMask operator|(LaneMask a, LaneMask b) { return {a.v | b.v}; }
-    friend LaneMask operator!(LaneMask a) { return {~a.v}; }
+    void set(int i, bool b) { items.set(i, b ? -1 : 0); }
+    friend LaneMask operator&(LaneMask a, LaneMask b) {
+        return {each<Items>([](auto x, auto y) { return x & y; }, a.items, b.items)};
+    }
+    friend LaneMask operator|(LaneMask a, LaneMask b) {
+        return {each<Items>([](auto x, auto y) { return x | y; }, a.items, b.items)};
+    }
+    friend LaneMask operator!(LaneMask a) {
+        return {each<Items>([](auto x) { return ~x; }, a.items)};
+    }
+};
+
+/// The bits of N doubles, with the integer operations that the kernels need (modulo 2^64).
+template <int N>
+struct LaneWords {
+    using Items = Pack<std::uint64_t, N>;
+    Items items;
+
+    friend LaneWords operator+(LaneWords a, LaneWords b) {
+        return {each<Items>([](auto x, auto y) { return x + y; }, a.items, b.items)};
+    }
+    friend LaneWords operator-(LaneWords a, LaneWords b) {
+        return {each<Items>([](auto x, auto y) { return x - y; }, a.items, b.items)};
+    }
+    friend LaneWords operator&(LaneWords a, LaneWords b) {
+        return {each<Items>([](auto x, auto y) { return x & y; }, a.items, b.items)};
+    }
+    friend LaneWords operator|(LaneWords a, LaneWords b) {
+        return {each<Items>([](auto x, auto y) { return x | y; }, a.items, b.items)};
+    }
+    friend LaneWords operator^(LaneWords a, LaneWords b) {
+        return {each<Items>([](auto x, auto y) { return x ^ y; }, a.items, b.items)};
+    }
+    friend LaneWords operator+(LaneWords a, std::uint64_t b) { return a + LaneWords{Items::all(b)}; }
+    friend LaneWords operator-(LaneWords a, std::uint64_t b) { return a - LaneWords{Items::all(b)}; }
+    friend LaneWords operator&(LaneWords a, std::uint64_t b) { return a & LaneWords{Items::all(b)}; }
+    friend LaneWords operator|(LaneWords a, std::uint64_t b) { return a | LaneWords{Items::all(b)}; }
+    friend LaneWords operator<<(LaneWords a, int n) {
+        return {each<Items>([n](auto x) { return x << n; }, a.items)};
+    }
+    friend LaneWords operator>>(LaneWords a, int n) {
+        return {each<Items>([n](auto x) { return x >> n; }, a.items)};
+    }
+    /// True where the lowest bit is set.
+    friend LaneMask<N> mask_of_low_bit(LaneWords a) {
+        return {each<Pack<std::int64_t, N>>([](auto x) { return -(x & std::uint64_t{1}); }, a.items)};
+    }
 };
 
 /// N doubles. The default constructor leaves them unset; a double converts to N copies of itself.
 template <int N>
 struct LanesN {
-    using Vector = typename VectorsOf<N>::Reals;
-    using Integers = typename VectorsOf<N>::Integers;
-    using Words = typename VectorsOf<N>::Words;
+    using Items = Pack<double, N>;
+    using Words = LaneWords<N>;
     static constexpr int size = N;
-    Vector v;
+    Items items;
 
     LanesN() = default;
-    LanesN(double all) : v(all - Vector{}) {}
-    explicit LanesN(Vector vector) : v(vector) {}
+    LanesN(double all) : items(Items::all(all)) {}
+    explicit LanesN(Items each_lane) : items(each_lane) {}
+    explicit LanesN(Words bits) : items(each<Items>([](auto x) { return x; }, bits.items)) {}
 
     /// N copies of a value.
     static LanesN broadcast(double all) { return LanesN(all); }
     /// Reads N doubles from memory (any alignment).
     static LanesN load(const double* from) {
         LanesN r;
-        __builtin_memcpy(&r.v, from, sizeof(Vector));
+        __builtin_memcpy(&r.items, from, sizeof(Items));
         return r;
     }
     /// Writes N doubles to memory (any alignment).
-    void store(double* to) const { __builtin_memcpy(to, &v, sizeof(Vector)); }
+    void store(double* to) const { __builtin_memcpy(to, &items, sizeof(Items)); }
     /// The value of lane i.
-    double operator[](int i) const { return v[i]; }
+    double operator[](int i) const { return items.get(i); }
     /// Sets lane i.
-    void set(int i, double x) { v[i] = x; }
+    void set(int i, double x) { items.set(i, x); }
+    /// The bits of every lane.
+    Words bits() const {
+        using Bits = typename Words::Items;
+        return {each<Bits>([](auto x) { return x; }, items)};
+    }
 
-    friend LanesN operator+(LanesN a, LanesN b) { return LanesN(a.v + b.v); }
-    friend LanesN operator-(LanesN a, LanesN b) { return LanesN(a.v - b.v); }
-    friend LanesN operator*(LanesN a, LanesN b) { return LanesN(a.v * b.v); }
-    friend LanesN operator/(LanesN a, LanesN b) { return LanesN(a.v / b.v); }
+    friend LanesN operator+(LanesN a, LanesN b) {
+        return LanesN(each<Items>([](auto x, auto y) { return x + y; }, a.items, b.items));
+    }
+    friend LanesN operator-(LanesN a, LanesN b) {
+        return LanesN(each<Items>([](auto x, auto y) { return x - y; }, a.items, b.items));
+    }
+    friend LanesN operator*(LanesN a, LanesN b) {
+        return LanesN(each<Items>([](auto x, auto y) { return x * y; }, a.items, b.items));
+    }
+    friend LanesN operator/(LanesN a, LanesN b) {
+        return LanesN(each<Items>([](auto x, auto y) { return x / y; }, a.items, b.items));
+    }
     friend LanesN operator-(LanesN a) {
-        return LanesN(reinterpret_cast<Vector>(reinterpret_cast<Words>(a.v) ^ 0x8000000000000000u));
+        return LanesN(a.bits() ^ Words{Words::Items::all(0x8000000000000000u)});
     }
     LanesN& operator+=(LanesN b) { return *this = *this + b; }
     LanesN& operator-=(LanesN b) { return *this = *this - b; }
     LanesN& operator*=(LanesN b) { return *this = *this * b; }
     LanesN& operator/=(LanesN b) { return *this = *this / b; }
 
-    friend LaneMask<N> less(LanesN a, LanesN b) { return {reinterpret_cast<Integers>(a.v < b.v)}; }
-    friend LaneMask<N> less_equal(LanesN a, LanesN b) { return {reinterpret_cast<Integers>(a.v <= b.v)}; }
-    friend LaneMask<N> equal(LanesN a, LanesN b) { return {reinterpret_cast<Integers>(a.v == b.v)}; }
-    friend LaneMask<N> is_nan(LanesN a) { return {reinterpret_cast<Integers>(a.v != a.v)}; }
+    using Truth = typename LaneMask<N>::Items;
+    friend LaneMask<N> less(LanesN a, LanesN b) {
+        return {each<Truth>([](auto x, auto y) { return x < y; }, a.items, b.items)};
+    }
+    friend LaneMask<N> less_equal(LanesN a, LanesN b) {
+        return {each<Truth>([](auto x, auto y) { return x <= y; }, a.items, b.items)};
+    }
+    friend LaneMask<N> equal(LanesN a, LanesN b) {
+        return {each<Truth>([](auto x, auto y) { return x == y; }, a.items, b.items)};
+    }
+    friend LaneMask<N> is_nan(LanesN a) {
+        return {each<Truth>([](auto x) { return x != x; }, a.items)};
+    }
     friend LanesN select(LaneMask<N> m, LanesN a, LanesN b) {
-        const Integers x = reinterpret_cast<Integers>(a.v), y = reinterpret_cast<Integers>(b.v);
-        return LanesN(reinterpret_cast<Vector>((x & m.v) | (y & ~m.v)));
+        const auto pick = [](auto mask, auto x, auto y) {
+            using Integers = decltype(mask);
+            return (reinterpret_cast<Integers>(x) & mask) | (reinterpret_cast<Integers>(y) & ~mask);
+        };
+        return LanesN(each<Items>(pick, m.items, a.items, b.items));
     }
 };
 
 /// The width that the engines use: four doubles, two SSE2 registers or one AVX register.
 using Lanes = LanesN<4>;
 
+/// Comparison and selection of lanes under qualified names. The friends above are the same and
+/// also take a double for either operand.
+template <int N>
+inline LaneMask<N> less(LanesN<N> a, LanesN<N> b) {
+    return less(a, b);  // the friend: it is no template, so it is preferred
+}
+template <int N>
+inline LaneMask<N> less_equal(LanesN<N> a, LanesN<N> b) {
+    return less_equal(a, b);
+}
+template <int N>
+inline LaneMask<N> equal(LanesN<N> a, LanesN<N> b) {
+    return equal(a, b);
+}
+template <int N>
+inline LaneMask<N> is_nan(LanesN<N> a) {
+    return is_nan(a);
+}
+template <int N>
+inline LanesN<N> select(LaneMask<N> m, LanesN<N> a, LanesN<N> b) {
+    return select(m, a, b);
+}
+
 /// True if some lane is true.
 template <int N>
 inline bool any(LaneMask<N> m) {
     std::int64_t r = 0;
-    for (int i = 0; i < N; ++i) r |= m.v[i];
+    for (int i = 0; i < N; ++i) r |= m.items.get(i);
     return r != 0;
 }
 /// True if every lane is true.
 template <int N>
 inline bool all(LaneMask<N> m) {
     std::int64_t r = -1;
-    for (int i = 0; i < N; ++i) r &= m.v[i];
+    for (int i = 0; i < N; ++i) r &= m.items.get(i);
     return r != 0;
 }
 
