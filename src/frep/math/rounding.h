@@ -39,7 +39,7 @@ inline T square(T x) {
 inline double sqrt(double x) { return __builtin_sqrt(x); }
 template <int N>
 inline LanesN<N> sqrt(LanesN<N> x) {
-    for (int i = 0; i < N; ++i) x.v[i] = __builtin_sqrt(x.v[i]);
+    for (int i = 0; i < N; ++i) x.set(i, __builtin_sqrt(x[i]));
     return x;
 }
 /// -1, 0 or 1; NaN for NaN.

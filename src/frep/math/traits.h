@@ -20,14 +20,14 @@ struct MaskOf<LanesN<N>> {
 template <class T>
 using mask_t = typename MaskOf<T>::type;
 
-/// The integers that hold the bits of a T: uint64_t, or a vector of them.
+/// The integers that hold the bits of a T: uint64_t or LaneWords<N>.
 template <class T>
 struct WordOf {
     using type = std::uint64_t;
 };
 template <int N>
 struct WordOf<LanesN<N>> {
-    using type = typename LanesN<N>::Words;
+    using type = LaneWords<N>;
 };
 template <class T>
 using word_t = typename WordOf<T>::type;
@@ -58,16 +58,18 @@ inline bool all(bool m) { return m; }
 /// a where the mask holds, else b. The other value has no effect, NaN included.
 inline double select(bool m, double a, double b) { return m ? a : b; }
 
+/// True if the lowest bit is set.
+inline bool mask_of_low_bit(std::uint64_t w) { return (w & 1) != 0; }
 /// The bits of each lane, and back.
 inline std::uint64_t bits_of(double x) { return to_bits(x); }
 template <int N>
-inline typename LanesN<N>::Words bits_of(LanesN<N> x) {
-    return reinterpret_cast<typename LanesN<N>::Words>(x.v);
+inline LaneWords<N> bits_of(LanesN<N> x) {
+    return x.bits();
 }
 /// Makes a T of its bits; a new lane type specialises it.
 template <class T>
 struct FloatOf {
-    static T of(word_t<T> w) { return T(reinterpret_cast<typename T::Vector>(w)); }
+    static T of(word_t<T> w) { return T(w); }
 };
 template <>
 struct FloatOf<double> {

@@ -12,18 +12,6 @@ namespace kernel {
 /// Arguments up to here take the fast reduction.
 inline constexpr double largest_fast_angle = 0x1p20;
 
-/// Masks from the low bit of each word.
-inline bool mask_of_low_bit(std::uint64_t w) { return (w & 1) != 0; }
-inline LaneMask<2> mask_of_low_bit(LanesN<2>::Words w) {
-    return {reinterpret_cast<LanesN<2>::Integers>(-(w & std::uint64_t{1}))};
-}
-inline LaneMask<4> mask_of_low_bit(LanesN<4>::Words w) {
-    return {reinterpret_cast<LanesN<4>::Integers>(-(w & std::uint64_t{1}))};
-}
-inline LaneMask<8> mask_of_low_bit(LanesN<8>::Words w) {
-    return {reinterpret_cast<LanesN<8>::Integers>(-(w & std::uint64_t{1}))};
-}
-
 /// x = quadrant * pi/2 + rest; only the low two bits of quadrant count.
 template <class T>
 struct Angle {

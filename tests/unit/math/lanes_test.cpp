@@ -139,7 +139,8 @@ TEST_CASE("masks and lanes") {
     const auto m = less(a, b);
     CHECK_FALSE(m[0]);
     CHECK(m[1]);
-    CHECK(any(m));
+    CHECK(any(fm::less(a, b)));
+    CHECK(fm::select(m, b, a)[1] == 0.0);
     CHECK_FALSE(all(m));
     CHECK(all(m | !m));
     CHECK(is_nan(a)[3]);
