@@ -9,7 +9,7 @@
 #include "frep/eval/vm.h"
 #include "frep/eval/vm_lane.h"
 #include "frep/eval/vm_region.h"
-#include "frep/field/kernels/basic.h"
+#include "frep/field/kernels/all.h"
 #include "frep/field/meaning.h"
 
 namespace frep {
