@@ -78,7 +78,7 @@ T undefined_value() {
 template <class T, class Mask>
 T truth_value(Mask mask, T a, T b) {
     const T value = math::select(mask, math::constant<T>(1.0), math::constant<T>(0.0));
-    return math::select(math::is_nan(a) | math::is_nan(b), undefined_value<T>(), value);
+    return math::select(math::either(math::is_nan(a), math::is_nan(b)), undefined_value<T>(), value);
 }
 
 template <class T>
@@ -96,11 +96,11 @@ T logical_not(T a) {
 }
 template <class T>
 T logical_and(T a, T b) {
-    return truth_value(is_true(a) & is_true(b), a, b);
+    return truth_value(math::both(is_true(a), is_true(b)), a, b);
 }
 template <class T>
 T logical_or(T a, T b) {
-    return truth_value(is_true(a) | is_true(b), a, b);
+    return truth_value(math::either(is_true(a), is_true(b)), a, b);
 }
 template <class T>
 T less(T a, T b) {
@@ -113,7 +113,7 @@ T less_equal(T a, T b) {
 template <class T>
 T equal(T a, T b) {
     const auto near = math::less(math::abs(a - b), math::constant<T>(truth_tolerance));
-    return truth_value(near | math::equal(a, b), a, b);  // the second for equal infinities
+    return truth_value(math::either(near, math::equal(a, b)), a, b);  // the second for equal infinities
 }
 template <class T>
 T select(T condition, T a, T b) {

@@ -1,0 +1,302 @@
+// Kernels of convolution surfaces with the Cauchy kernel 1/(1 + S^2 r^2)^2 (McCormack and Sherstyuk 1998):
+// closed forms for points, segments, triangles (by Green's theorem over the edges) and arcs of any angle.
+// The geometry of elements that are constants is prepared in double. Elements of length or area 0 count 0.
+// Intervals use that each element's integral lies between its size times the kernel at the largest and at the
+// smallest distance. Tested by tests/unit/shapes/convolution_test.cpp.
+#pragma once
+
+#include "frep/field/kernels/support.h"
+
+namespace frep::kernels {
+
+namespace convolution_detail {
+
+template <class S>
+struct Triple {
+    S x, y, z;
+    friend Triple operator-(const Triple& a, const Triple& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+};
+template <class S>
+S dot(Triple<S> a, Triple<S> b) {
+    return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+template <class S>
+Triple<S> cross(Triple<S> a, Triple<S> b) {
+    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+template <class S>
+S length_of(Triple<S> a) {
+    return math::sqrt(sum_of_squares(a.x, a.y, a.z));
+}
+/// a/length; 0 where the length is 0.
+template <class S>
+Triple<S> unit(Triple<S> a, S length) {
+    const auto nought = math::equal(length, zero<S>());
+    const S scale = math::select(nought, zero<S>(), 1.0 / length);
+    return {a.x * scale, a.y * scale, a.z * scale};
+}
+template <class T, class S>
+Triple<T> lift3(Triple<S> a) {
+    return {lift<T>(a.x), lift<T>(a.y), lift<T>(a.z)};
+}
+template <class S, class T>
+S item(const Data<T>& data, std::size_t i) {
+    if constexpr (std::is_same_v<S, T>) {
+        return data[i];
+    } else {
+        return data.number(i);
+    }
+}
+template <class S, class T>
+Triple<S> triple(const Data<T>& data, std::size_t i) {
+    return {item<S>(data, i), item<S>(data, i + 1), item<S>(data, i + 2)};
+}
+
+/// 1/(1 + S^2 r^2)^2 of the squared distance.
+template <class T>
+T cauchy(T s2, T r2) {
+    return 1.0 / math::square(1.0 + s2 * r2);
+}
+
+// Segments.
+
+template <class S>
+struct Segment {
+    Triple<S> begin, along;  ///< `along` of length 1
+    S length;
+};
+template <class S, class T>
+Segment<S> segment_of(const Data<T>& data, std::size_t i) {
+    const Triple<S> begin = triple<S>(data, i), span = triple<S>(data, i + 3) - begin;
+    const S length = length_of(span);
+    return {begin, unit(span, length), length};
+}
+template <class T, class S>
+Segment<T> lift_segment(const Segment<S>& a) {
+    return {lift3<T>(a.begin), lift3<T>(a.along), lift<T>(a.length)};
+}
+
+/// The integral along a line of the given length for a point at coordinate x along it and squared distance
+/// rho2 from it.
+template <class T>
+T line_integral(T x, T rho2, T length, T s) {
+    const T s2 = math::square(s), rest = length - x;
+    const T p2 = 1.0 + s2 * rho2, p = math::sqrt(p2);
+    const T ends = x / (p2 + s2 * math::square(x)) + rest / (p2 + s2 * math::square(rest));
+    const T angles = math::atan(s * x / p) + math::atan(s * rest / p);
+    const T value = (ends + angles / (s * p)) / (2.0 * p2);
+    return math::select(math::equal(s, zero<T>()), length, value);
+}
+
+template <class T>
+T segment_term(const T* lead, const Segment<T>& a, T s) {
+    const Triple<T> d = Triple<T>{lead[0], lead[1], lead[2]} - a.begin;
+    const Triple<T> beside = cross(d, a.along);
+    const T x = dot(d, a.along), rho2 = sum_of_squares(beside.x, beside.y, beside.z);
+    if constexpr (is_interval<T>) {
+        // decreases with the distance from the line, and from the segment's middle plane
+        const Interval half = a.length * Interval(0.5), off = math::abs(x - half);
+        if (off.is_empty() || rho2.is_empty()) return Interval::empty();
+        const Interval low = line_integral(half + Interval(off.hi), Interval(rho2.hi), a.length, s);
+        const Interval high = line_integral(half + Interval(off.lo), Interval(rho2.lo), a.length, s);
+        const bool undefined = x.maybe_undefined || rho2.maybe_undefined || low.maybe_undefined;
+        return widened({low.lo, high.hi, undefined}, 0x1p-50 * magnitude(high));
+    } else {
+        return line_integral(x, rho2, a.length, s);
+    }
+}
+
+template <class T>
+Segment<T> segment_at(const Data<T>& data, std::size_t i) {
+    if (data.is_constant()) return lift_segment<T>(segment_of<double>(data, i));
+    return segment_of<T>(data, i);
+}
+
+// Triangles.
+
+template <class S>
+struct Triangle {
+    Triple<S> corner[3], edge[3], inward[3], normal;  ///< unit vectors; `inward` in the plane, across an edge
+    S length[3], area;
+};
+template <class S, class T>
+Triangle<S> triangle_of(const Data<T>& data, std::size_t i) {
+    Triangle<S> t;
+    for (std::size_t k = 0; k < 3; ++k) t.corner[k] = triple<S>(data, i + 3 * k);
+    const Triple<S> n = cross(t.corner[1] - t.corner[0], t.corner[2] - t.corner[0]);
+    const S twice = length_of(n);
+    t.area = twice * 0.5;
+    t.normal = unit(n, twice);
+    for (std::size_t k = 0; k < 3; ++k) {
+        const Triple<S> span = t.corner[(k + 1) % 3] - t.corner[k];
+        t.length[k] = length_of(span);
+        t.edge[k] = unit(span, t.length[k]);
+        t.inward[k] = cross(t.normal, t.edge[k]);
+    }
+    return t;
+}
+template <class T, class S>
+Triangle<T> lift_triangle(const Triangle<S>& a) {
+    Triangle<T> t;
+    for (std::size_t k = 0; k < 3; ++k) {
+        t.corner[k] = lift3<T>(a.corner[k]);
+        t.edge[k] = lift3<T>(a.edge[k]);
+        t.inward[k] = lift3<T>(a.inward[k]);
+        t.length[k] = lift<T>(a.length[k]);
+    }
+    t.normal = lift3<T>(a.normal);
+    t.area = lift<T>(a.area);
+    return t;
+}
+
+/// 1/(2 K S) sum over the edges of (h/B)(atan(S t1/B) - atan(S t0/B)), K = 1 + S^2 z^2, B^2 = K + S^2 h^2,
+/// z the height over the plane, h the distance inward of an edge, t0, t1 the ends along it.
+template <class T>
+T triangle_integral(const T* lead, const Triangle<T>& a, T s) {
+    const Triple<T> p = {lead[0], lead[1], lead[2]};
+    const T s2 = math::square(s);
+    const T k = 1.0 + s2 * math::square(dot(p - a.corner[0], a.normal));
+    T sum = zero<T>();
+    for (std::size_t i = 0; i < 3; ++i) {
+        const Triple<T> d = p - a.corner[i];
+        const T h = dot(d, a.inward[i]), t = dot(d, a.edge[i]);
+        const T b = math::sqrt(k + s2 * math::square(h)), scale = s / b;
+        sum += h / b * (math::atan((a.length[i] - t) * scale) + math::atan(t * scale));
+    }
+    return math::select(math::equal(s, zero<T>()), a.area, sum / (2.0 * (k * s)));
+}
+
+/// Bounds of the squared distance between a box of points and a triangle.
+inline Interval square_distance_range(const Interval* lead, const Triangle<Interval>& a) {
+    double low = 0.0, high = 0.0;
+    for (int axis = 0; axis < 3; ++axis) {
+        const auto coordinate = [&](std::size_t k) {
+            return axis == 0 ? a.corner[k].x : axis == 1 ? a.corner[k].y : a.corner[k].z;
+        };
+        const Interval span = math::hull(math::hull(coordinate(0), coordinate(1)), coordinate(2));
+        const Interval apart = math::square(lead[axis] - span);
+        low = math::next_down(low + apart.lo);
+    }
+    for (const Triple<Interval>& c : a.corner) {
+        const double r2 = sum_of_squares(lead[0] - c.x, lead[1] - c.y, lead[2] - c.z).hi;
+        high = r2 > high ? r2 : high;
+    }
+    return {low > 0.0 ? low : 0.0, high};
+}
+
+template <class T>
+T triangle_term(const T* lead, const Triangle<T>& a, T s) {
+    const T value = triangle_integral(lead, a, s);
+    if constexpr (is_interval<T>) {
+        const Interval r2 = square_distance_range(lead, a), s2 = math::square(s);
+        const Interval range = a.area * cauchy(s2, r2);
+        // what the closed form may lose by rounding: it is a sum of terms below 1/S^2
+        const double lost = 1e-14 * (s2.lo > 0.0 ? 1.0 / s2.lo : math::infinity);
+        return cut(value, range.lo - lost, range.hi + lost);
+    } else {
+        return value;
+    }
+}
+
+template <class T>
+Triangle<T> triangle_at(const Data<T>& data, std::size_t i) {
+    if (data.is_constant()) return lift_triangle<T>(triangle_of<double>(data, i));
+    return triangle_of<T>(data, i);
+}
+
+// Arcs.
+
+/// Integral of dt/(k - m cos t)^2 from 0 to t, k > m >= 0, as a function of t + any turn.
+template <class T>
+T arc_primitive(T t, T k, T m, T w2) {
+    constexpr double inverse_turn = 0.15915494309189533577;
+    const T n = math::floor(t * inverse_turn + 0.5);
+    const T rest = t - n * (2.0 * math::pi);
+    const T w = math::sqrt(w2);
+    const T angle = math::atan(w / (k - m) * math::tan(0.5 * rest)) + n * math::pi;
+    return m * math::sin(t) / (w2 * (k - m * math::cos(t))) + 2.0 * k / (w2 * w) * angle;
+}
+
+/// Arc of radius r about the origin of the local plane, from the x axis by theta.
+template <class T>
+T arc_integral(T x, T y, T z, T r, T theta, T s) {
+    const T rho = math::hypot(x, y), phi = math::atan2(y, x), s2 = math::square(s), z2 = math::square(z);
+    const T near = 1.0 + s2 * (math::square(r - rho) + z2), far = 1.0 + s2 * (math::square(r + rho) + z2);
+    const T k = 1.0 + s2 * (math::square(r) + math::square(rho) + z2), m = 2.0 * s2 * r * rho;
+    const T value = arc_primitive(theta - phi, k, m, near * far) - arc_primitive(-phi, k, m, near * far);
+    if constexpr (is_interval<T>) {
+        const double lost = 1e-14 * magnitude(theta) + 1e-14;
+        return cut(value, (theta / math::square(far)).lo - lost, (theta / math::square(near)).hi + lost);
+    } else {
+        return value;
+    }
+}
+
+/// The angle about the axis has no derivative on the axis: derivatives there are taken a millionth of the
+/// radius beside it, where they differ by about as much.
+template <class T>
+math::Dual<T> arc_integral(math::Dual<T> x, math::Dual<T> y, math::Dual<T> z, math::Dual<T> r,
+                           math::Dual<T> theta, math::Dual<T> s) {
+    const T value = arc_integral(x.value, y.value, z.value, r.value, theta.value, s.value);
+    const T beside = 1e-6 * math::abs(r.value);
+    const auto on_axis = math::less(math::hypot(x.value, y.value), beside);
+    x.value = math::select(on_axis, beside, x.value);
+    math::Dual<T> result = arc_integral<math::Dual<T>>(x, y, z, r, theta, s);
+    result.value = value;
+    return result;
+}
+
+}  // namespace convolution_detail
+
+template <class T>
+T conv_point(const T* lead, Data<T> data) {
+    T sum = zero<T>();
+    for (std::size_t i = 0; i + 4 <= data.size(); i += 4)
+        sum += convolution_detail::cauchy(
+            math::square(data[i + 3]),
+            sum_of_squares(lead[0] - data[i], lead[1] - data[i + 1], lead[2] - data[i + 2]));
+    return sum;
+}
+
+template <class T>
+T conv_line(const T* lead, Data<T> data) {
+    T sum = zero<T>();
+    for (std::size_t i = 0; i + 7 <= data.size(); i += 7)
+        sum += convolution_detail::segment_term(lead, convolution_detail::segment_at(data, i), data[i + 6]);
+    return sum;
+}
+
+template <class T>
+T conv_line_clamped(const T* lead, Data<T> data) {
+    T sum = zero<T>();
+    for (std::size_t i = 0; i + 6 <= data.size(); i += 6)
+        sum = math::min(
+            sum + convolution_detail::segment_term(lead, convolution_detail::segment_at(data, i), lead[3]),
+            one<T>());
+    return sum;
+}
+
+template <class T>
+T conv_triangle(const T* lead, Data<T> data) {
+    T sum = zero<T>();
+    for (std::size_t i = 0; i + 11 <= data.size(); i += 11)
+        sum += data[i + 10] *
+               convolution_detail::triangle_term(lead, convolution_detail::triangle_at(data, i), data[i + 9]);
+    return sum;
+}
+
+template <class T>
+T conv_arc(const T* lead, Data<T> data) {
+    using namespace convolution_detail;
+    T sum = zero<T>();
+    for (std::size_t i = 0; i + 13 <= data.size(); i += 13) {
+        const Triple<T> d = Triple<T>{lead[0], lead[1], lead[2]} - triple<T>(data, i);
+        const Triple<T> u = triple<T>(data, i + 3), v = triple<T>(data, i + 6);
+        const T integral =
+            arc_integral(dot(d, u), dot(d, v), dot(d, cross(u, v)), data[i + 9], data[i + 10], data[i + 11]);
+        sum += data[i + 12] * integral;
+    }
+    return sum;
+}
+
+}  // namespace frep::kernels
