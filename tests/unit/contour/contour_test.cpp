@@ -3,6 +3,7 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cstring>
 
 #include "frep/geom/mesh_check.h"
@@ -35,6 +36,11 @@ MeshReport closed_manifold(const Mesh& mesh) {
     CHECK(report.manifold);
     CHECK(report.oriented);
     CHECK(check(mesh, {.as_float32 = false}).manifold);
+    std::vector<bool> is_used(mesh.vertices.size());
+    for (const Triangle& t : mesh.triangles) {
+        for (const std::uint32_t v : t) is_used[v] = true;
+    }
+    CHECK(std::find(is_used.begin(), is_used.end(), false) == is_used.end());
     return report;
 }
 
@@ -130,6 +136,7 @@ TEST_CASE("random noise gives a closed oriented manifold under the cap") {
         CHECK(check(contoured(field, {.bounds = Box3::cube(1), .cells = 10}).mesh).boundary_edges > 0);
         CHECK(r.touches == std::array<bool, 6>{true, true, true, true, true, true});
     }
+    closed_manifold(contoured(noise_field(1, 40), {.bounds = Box3::cube(1), .cells = 40, .cap = true}).mesh);
     for (const double share : {0.05, 0.2, 0.8, 0.95}) {
         CAPTURE(share);
         closed_manifold(
@@ -169,7 +176,7 @@ TEST_CASE("the cap closes a shape at the box, exactly on its sides") {
     CHECK(check(capped.mesh, {.as_float32 = false}).bounds->min == grid.min);
 
     const FunctionField everything = generic_field([](auto x, auto, auto) { return x * 0.0 + 1.0; });
-    for (const int cells : {1, 2, 7, 8, 20}) {
+    for (const int cells : {1, 2, 6, 7, 8, 14, 20}) {
         CAPTURE(cells);
         const ContourResult full =
             contoured(everything, {.bounds = Box3::cube(1), .cells = cells, .cap = true});
@@ -177,7 +184,9 @@ TEST_CASE("the cap closes a shape at the box, exactly on its sides") {
         CHECK(report.genus == 0.0);
         CHECK(report.volume.value() == doctest::Approx(8).epsilon(1e-12));
         CHECK(report.area == doctest::Approx(24).epsilon(1e-12));
-        CHECK(contoured(everything, {.bounds = Box3::cube(1), .cells = cells}).mesh.triangles.empty());
+        const ContourResult uncut = contoured(everything, {.bounds = Box3::cube(1), .cells = cells});
+        CHECK(uncut.mesh.triangles.empty());
+        CHECK(uncut.touches == std::array<bool, 6>{true, true, true, true, true, true});
     }
 }
 
@@ -189,6 +198,13 @@ TEST_CASE("constant functions") {
         CHECK(r.touches == no_sides);
         CHECK(r.undefined_points == (value == value ? 0 : 13 * 13 * 13));
     }
+    // Surely undefined by its intervals: counted without a sample taken.
+    const FunctionField nowhere =
+        generic_field([](auto x, auto, auto) { return math::sqrt(-1.0 - math::square(x)); });
+    const ContourResult none = contoured(nowhere, {.bounds = Box3::cube(1), .cells = 12});
+    CHECK(none.sampled_blocks == 0);
+    CHECK(none.undefined_points == 13 * 13 * 13);
+    CHECK(none.first_undefined == Vec3{-1, -1, -1});
     const FunctionField zero([](double, double, double) { return 0.0; });  // 0 is inside, everywhere
     CHECK(contoured(zero, {.bounds = Box3::cube(1), .cells = 4}).touches[0]);
 }
@@ -212,6 +228,16 @@ TEST_CASE("a surface through grid vertices, edges and faces") {
         r = closed_manifold(contoured(generic_field(cube), {.bounds = Box3::cube(2), .cells = cells}).mesh);
         CHECK(r.genus == 0.0);
         CHECK(r.volume.value() == doctest::Approx(8).epsilon(1e-3));
+    }
+    for (const int cells : {8, 20}) {
+        const ContourResult r =
+            contoured(generic_field(octahedron), {.bounds = Box3::cube(2), .cells = cells});
+        for (const Vec3& v : r.mesh.vertices) {
+            const auto off = [&](double c) {
+                return std::abs((c + 2) / r.grid.cell - std::round((c + 2) / r.grid.cell));
+            };
+            REQUIRE(std::max({off(v.x), off(v.y), off(v.z)}) > 0.99e-4);
+        }
     }
     // Only one sample is inside, with F = 0: a tiny octahedron, not nothing and not degenerate.
     const auto point = [](auto x, auto y, auto z) {
@@ -245,13 +271,17 @@ TEST_CASE("a solid that ends where F is undefined gets a wall there") {
 }
 
 TEST_CASE("pruning and threads change no byte") {
+    const auto cut_ball = [](auto x, auto y, auto z) {
+        return sphere_function(0.6)(x, y, z) + 0.0 * math::sqrt(x + 0.4);
+    };
     const auto half_defined = [](auto x, auto y, auto z) {
         using math::max;
         return max(torus_function(1, 0.3)(x, y, z), sphere_function(0.4)(x, y, z)) * math::sqrt(x + 1.0);
     };
     for (const bool cap : {false, true}) {
-        for (const auto& field : {generic_field(sphere_function(0.9, 0.3)),
-                                  generic_field(torus_function(1, 0.3)), generic_field(half_defined)}) {
+        for (const auto& field :
+             {generic_field(sphere_function(0.9, 0.3)), generic_field(torus_function(1, 0.3)),
+              generic_field(half_defined), generic_field(cut_ball)}) {
             for (const int cells : {5, 30, 61}) {
                 CAPTURE(cells);
                 ContourOptions options{

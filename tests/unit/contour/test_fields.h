@@ -1,5 +1,5 @@
-// Fields written as plain C++ functions, for the tests of contour: values, exact gradients by central
-// differences where none is given, and intervals where the test gives them.
+// Fields written as plain C++ functions, for the tests of contour: values, gradients by
+// differences, and intervals where the test gives them.
 #pragma once
 
 #include <cmath>
@@ -36,9 +36,9 @@ class FunctionField final : public SampledField {
         for (std::size_t i = 0; i < p.size(); ++i) {
             const double x = p.x[i], y = p.y[i], z = p.z[i];
             values[i] = value_(x, y, z);
-            out.x[i] = (value_(x + d, y, z) - value_(x - d, y, z)) / (2 * d);
-            out.y[i] = (value_(x, y + d, z) - value_(x, y - d, z)) / (2 * d);
-            out.z[i] = (value_(x, y, z + d) - value_(x, y, z - d)) / (2 * d);
+            out.x[i] = slope(values[i], value_(x - d, y, z), value_(x + d, y, z), d);
+            out.y[i] = slope(values[i], value_(x, y - d, z), value_(x, y + d, z), d);
+            out.z[i] = slope(values[i], value_(x, y, z - d), value_(x, y, z + d), d);
         }
     }
 
@@ -55,6 +55,13 @@ class FunctionField final : public SampledField {
     double operator()(double x, double y, double z) const { return value_(x, y, z); }
 
   private:
+    /// Central difference, or from one side where the other is undefined.
+    static double slope(double here, double below, double above, double d) {
+        if (above != above) return (here - below) / d;
+        if (below != below) return (above - here) / d;
+        return (above - below) / (2 * d);
+    }
+
     Value value_;
     Range range_;
 };
