@@ -204,7 +204,7 @@ class Reader {
             return warn(
                 Code::annotation_malformed, place,
                 {"the dialect of HyperFun is 2 or 3", "not a dialect", "leave the line out for dialect 2"});
-        if (source_.locate(line.begin).line != 1 || line.begin != 0)
+        if (source_.locate(line.begin).line != 1)
             return warn(Code::dialect_not_first, key,
                         {"the dialect must be stated in the first line", "too late, not used",
                          "move this line to the top of the file"});

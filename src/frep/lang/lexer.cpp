@@ -52,7 +52,7 @@ struct Foreign {
     std::string_view help;
 };
 
-constexpr std::array<Foreign, 13> foreign_marks{{
+constexpr std::array<Foreign, 11> foreign_marks{{
     {"==", TokenKind::equal, "`=` compares (in conditions) and assigns; there is no `==`"},
     {"!=", TokenKind::not_equal, "write `/=` for \"not equal\""},
     {"<>", TokenKind::not_equal, "write `/=` for \"not equal\""},
@@ -64,8 +64,6 @@ constexpr std::array<Foreign, 13> foreign_marks{{
     {"**", TokenKind::caret, "a power is written with `^`"},
     {"!", TokenKind::key_not, "in a condition write `not`; the complement of a solid is `~`"},
     {"%", TokenKind::invalid, "the remainder is `mod(a, b)`; a comment begins with `--`"},
-    {"//", TokenKind::invalid, "a comment begins with `--`"},
-    {"#", TokenKind::invalid, "a comment begins with `--`"},
 }};
 
 constexpr std::array<std::string_view, 41> kind_names{"the end of the file",
@@ -129,6 +127,11 @@ TokenKind mark_kind(char c) {
 bool ends_operand(TokenKind kind) {
     return kind == TokenKind::identifier || kind == TokenKind::number ||
            kind == TokenKind::right_parenthesis || kind == TokenKind::right_bracket;
+}
+
+bool wants_operand(TokenKind kind) {
+    return (kind >= TokenKind::plus && kind <= TokenKind::left_parenthesis) || kind == TokenKind::key_and ||
+           kind == TokenKind::key_or || kind == TokenKind::key_not;
 }
 
 bool is_known(char c) {
@@ -212,7 +215,7 @@ bool Lexer::skip_blanks_and_comments(Token& token) {
         } else if (is_blank(peek())) {
             new_line = new_line || is_newline(peek());
             ++position_;
-        } else {
+        } else if (!skip_foreign_comment()) {
             break;
         }
     }
@@ -229,12 +232,15 @@ void Lexer::skip_comment(bool same_line) {
 }
 
 void Lexer::warn_of_double_minus(std::size_t begin) {
-    if (!reporter_ || begin == 0 || !ends_operand(previous_) || is_blank(text_[begin - 1])) return;
+    if (!reporter_ || begin == 0) return;
     const char after = peek(2);
-    if (!is_word(after) && after != '(' && after != '.') return;
+    const bool value = is_digit(after) || after == '(' || after == '.';
+    const bool in_operand =
+        ends_operand(previous_) && !is_blank(text_[begin - 1]) && (value || is_word(after));
+    if (!in_operand && !(wants_operand(previous_) && value)) return;
     const auto place = static_cast<std::uint32_t>(begin);
     reporter_->report(
-        Code::comment_after_operand, {place, place + 2},
+        Code::double_minus, {place, place + 2},
         {"`--` begins a comment here: the rest of the line is not read", "a comment",
          "write `- -` with a blank to subtract a negative value, or put a blank before a comment"});
 }
@@ -302,27 +308,36 @@ Token Lexer::read_text(Token token) {
 /// Operators of other languages: reported, then read as the one that was meant.
 bool Lexer::read_foreign(Token& token) {
     const std::string_view rest = text_.substr(position_, 2);
-    const bool block = rest == "/*";
-    const Foreign* found = nullptr;
-    for (const Foreign& foreign : foreign_marks)
-        if (rest.starts_with(foreign.mark)) {
-            found = &foreign;
-            break;
-        }
-    if (!found && !block) return false;
-    position_ += block ? 2 : found->mark.size();
-    token = finish(token, block ? TokenKind::invalid : found->stands_for);
+    const auto found = std::find_if(foreign_marks.begin(), foreign_marks.end(),
+                                    [&](const Foreign& foreign) { return rest.starts_with(foreign.mark); });
+    if (found == foreign_marks.end()) return false;
+    position_ += found->mark.size();
+    token = finish(token, found->stands_for);
     if (reporter_)
-        reporter_->report(
-            Code::foreign_operator, token.span,
-            {fmt::format("{} is not an operator of HyperFun", reporter_->quote(token.span)),
-             {},
-             block ? "a comment begins with `--` and ends with its line" : std::string(found->help)});
+        reporter_->report(Code::foreign_operator, token.span,
+                          {fmt::format("{} is not an operator of HyperFun", reporter_->quote(token.span)),
+                           {},
+                           std::string(found->help)});
+    return true;
+}
+
+/// Comments of other languages: reported, then passed over. False when there is none.
+bool Lexer::skip_foreign_comment() {
+    const std::string_view rest = text_.substr(position_, 2);
+    const bool block = rest == "/*";
+    if (!block && rest != "//" && !rest.starts_with('#')) return false;
+    const auto begin = static_cast<std::uint32_t>(position_);
+    const Span mark = {begin, begin + (peek() == '#' ? 1u : 2u)};
+    if (reporter_)
+        reporter_->report(Code::foreign_operator, mark,
+                          {fmt::format("{} does not begin a comment in HyperFun", reporter_->quote(mark)),
+                           {},
+                           "a comment begins with `--` and ends with its line"});
     if (block) {
-        const std::size_t end = text_.find("*/", position_);
+        const std::size_t end = text_.find("*/", position_ + 2);
         position_ = end == text_.npos ? text_.size() : end + 2;
-    } else if (found->mark == "//" || found->mark == "#") {
-        while (position_ < text_.size() && !is_newline(peek())) ++position_;
+    } else {
+        while (position_ < text_.size() && !is_newline(text_[position_])) ++position_;
     }
     return true;
 }
@@ -344,7 +359,9 @@ Token Lexer::read_unexpected(Token token) {
     while (position_ + first < text_.size() && (static_cast<unsigned char>(peek(first)) & 0xC0) == 0x80)
         ++first;
     const std::string_view character = text_.substr(position_, first);
+    const std::size_t closing = character == "'" ? text_.find_first_of("'\r\n", position_ + 1) : text_.npos;
     position_ += first;
+    if (closing != text_.npos && text_[closing] == '\'') position_ = closing + 1;
     while (position_ < text_.size() && !is_known(peek())) ++position_;
     token = finish(token, TokenKind::invalid);
     if (!reporter_) return token;

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -80,6 +81,7 @@ class Lexer {
   private:
     bool skip_blanks_and_comments(Token& token);
     void skip_comment(bool same_line);
+    bool skip_foreign_comment();
     void warn_of_double_minus(std::size_t begin);
     Token read_number(Token token);
     Token read_word(Token token);

@@ -74,11 +74,13 @@ bool Parser::expect(TokenKind kind, std::string help) {
 bool Parser::expect_semicolon(std::string_view after) {
     if (accept(TokenKind::semicolon)) return true;
     if (at(TokenKind::invalid)) return false;
-    const bool comment = current_.after_comment;
+    std::string help = fmt::format("found {} instead", to_string(current_.kind));
+    if (current_.after_comment)
+        help = "`--` begins a comment: what follows in that line is not read";
+    else if (at(TokenKind::comma))
+        help = "a comma separates arguments and items of lists; numbers have a point: 1.5";
     report_.report(Code::expected_token, {previous_.end, previous_.end},
-                   {fmt::format("expected `;` after {}", after), "`;` is missing here",
-                    comment ? "`--` begins a comment: what follows in that line is not read"
-                            : fmt::format("found {} instead", to_string(current_.kind))});
+                   {fmt::format("expected `;` after {}", after), "`;` is missing here", std::move(help)});
     return begins_statement() || at(TokenKind::end) || at(TokenKind::right_brace) ||
            at(TokenKind::key_else) || at(TokenKind::key_endif) || at(TokenKind::key_endloop);
 }
@@ -115,9 +117,10 @@ bool Parser::begins_statement() const {
     }
 }
 
-/// After an error: on to the next `;` (read) or to a word that begins or ends a statement (not read).
+/// After an error: on to the next `;` (read) or to what begins or ends a statement (not read).
 void Parser::skip_statement() {
     for (;; advance()) {
+        if (at(TokenKind::identifier) && current_.first_on_line && next_.kind == TokenKind::equal) return;
         switch (current_.kind) {
             case TokenKind::semicolon:
                 advance();

@@ -87,6 +87,7 @@ class Parser {
     bool branch(Statements& out);
     bool branch_tail(StatementNode& node, const Token& opener);
     bool loop(Statements& out);
+    void report_results_in_block();
     bool close_block(TokenKind closer, const Token& opener);
     std::optional<ExpressionId> block_condition(TokenKind follower);
     bool at_elseif() const;
@@ -158,11 +159,13 @@ class Parser {
         std::string name;
         bool sizes_known = true;
         bool result_seen = false;
-        bool result_in_block = false;
+        bool results_reported = false;
         bool late_statement_reported = false;
         int block_depth = 0;
         int open_ifs = 0;
         int open_loops = 0;
+        int extra_braces = 0;
+        std::vector<Span> results_in_block;
         double items = 0;
         std::unordered_map<std::string, std::uint32_t> arrays;
         std::unordered_map<std::string, std::uint32_t> scalars;

@@ -41,22 +41,22 @@ std::uint32_t Parser::scalar_symbol(const std::string& lowered) {
 
 /// True when `name` may be given to a new `what`. A taken name is an error, a shadowed one a warning.
 bool Parser::check_new_name(const Token& name, const std::string& lowered, std::string_view what) {
+    const bool is_object = what == "an object";
     const auto rows = find_library(lowered);
     const auto refuse = [&](std::string_view owner) {
         report_.report(Code::name_taken, name.span,
-                       {fmt::format("{} cannot be the name of an {}", quote(name.span), what),
+                       {fmt::format("{} cannot be the name of {}", quote(name.span), what),
                         std::string(owner), "choose another name"});
-        if (what == "variable") return false;
         return false;
     };
     if (is_reserved_word(lowered)) return refuse("is a word of the language");
     if (find_builtin(lowered)) return refuse("is a built-in function");
     if (!rows.empty() && rows.front().reserved) return refuse("is a function of the library");
-    if (what != "object" && lowered == scope_.name) return refuse("is the object's own name");
-    const bool shadows_object = what != "object" && find_object(lowered);
+    if (!is_object && lowered == scope_.name) return refuse("is the object's own name");
+    const bool shadows_object = !is_object && find_object(lowered);
     if (shadows_object || !rows.empty())
         report_.report(Code::shadowed_name, name.span,
-                       {fmt::format("this {} has the name of {}", what,
+                       {fmt::format("{} gets the name of {}", what,
                                     shadows_object ? "an object of this file" : "a library function"),
                         "the same name", "choose another name, so that readers are not misled"});
     return true;
@@ -64,6 +64,7 @@ bool Parser::check_new_name(const Token& name, const std::string& lowered, std::
 
 /// "did you mean ...?" among the names that could stand there, or nothing.
 std::string Parser::suggestion(std::string_view name, bool scalars, bool arrays, bool functions) const {
+    if (name.size() < 3) return {};  // everything is near to a letter
     std::vector<std::string_view> candidates;
     const auto offer = [&](std::string_view candidate) {
         if (candidates.size() < candidate_limit) candidates.push_back(candidate);

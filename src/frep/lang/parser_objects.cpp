@@ -64,7 +64,7 @@ void Parser::object_name(const Token& name) {
                          "count",
                          first.line)});
     } else {
-        check_new_name(name, lowered, "object");
+        check_new_name(name, lowered, "an object");
     }
     Object object;
     object.name = lowered;
@@ -157,7 +157,9 @@ void Parser::declaration() {
         declared_array(name, size.value_or(std::numeric_limits<double>::quiet_NaN()));
         if (!size) return skip_statement();
     } while (accept(TokenKind::comma));
-    if (!expect_semicolon("the declaration")) skip_statement();
+    const bool another =
+        at(TokenKind::identifier) && !current_.first_on_line;  // of the same line: no statement
+    if (!expect_semicolon("the declaration") || another) skip_statement();
 }
 
 /// Adds a local array; a size of NaN was reported already. The first of two declarations counts.
@@ -172,7 +174,7 @@ void Parser::declared_array(const Token& name, double size) {
              fmt::format("the first declaration, with {} items, holds: remove this one", first.size)});
         return;
     }
-    if (!check_new_name(name, lowered, "array")) return;
+    if (!check_new_name(name, lowered, "an array")) return;
     const auto limit = static_cast<double>(array_item_limit);
     if (size < 1) {
         report_.report(Code::size_out_of_range, name.span,
@@ -209,7 +211,7 @@ void Parser::body(Span brace) {
         report_.report(Code::unclosed_block, brace,
                        {fmt::format("the body of {} is not closed", quote(object_now().name_span)),
                         "opened here", "a `}` is missing"});
-    else if (!scope_.result_seen && !scope_.result_in_block)
+    else if (!scope_.result_seen && !scope_.results_reported && scope_.results_in_block.empty())
         report_.report(
             Code::missing_result, current_.span,
             {fmt::format("the object {} gets no value", quote(object_now().name_span)),
@@ -221,7 +223,7 @@ void Parser::body(Span brace) {
 /// `else`, `endif` or `endloop` that closes nothing.
 void Parser::stray_end() {
     report_.report(Code::stray_end, current_.span,
-                   {fmt::format("{} without an open {}", to_string(current_.kind),
+                   {fmt::format("{} without an open {}", quote(current_.span),
                                 at(TokenKind::key_endloop) ? "`while`" : "`if`"),
                     "closes nothing", "remove it, or write the beginning that it belongs to"});
     advance();

@@ -18,8 +18,18 @@ Statements Parser::statements() {
     Statements list;
     for (;;) {
         switch (current_.kind) {
-            case TokenKind::end:
             case TokenKind::right_brace:
+                if (scope_.extra_braces == 0) return list;
+                --scope_.extra_braces;
+                advance();
+                continue;
+            case TokenKind::left_brace:
+                ++scope_.extra_braces;
+                syntax_error(Code::expected_statement, "a statement",
+                             "blocks have no braces: if ... then ... endif; and while ... loop ... endloop;");
+                advance();
+                continue;
+            case TokenKind::end:
             case TokenKind::key_else:
             case TokenKind::key_endif:
             case TokenKind::key_endloop:
@@ -63,10 +73,12 @@ bool Parser::statement(Statements& out) {
         default:
             break;
     }
+    if (current_.kind >= TokenKind::key_array && next_.kind == TokenKind::equal) {
+        check_new_name(current_, lower(current_), "a variable");
+        return false;
+    }
     syntax_error(Code::expected_statement, "a statement",
-                 at(TokenKind::left_brace)
-                     ? "blocks have no braces: if ... then ... endif; and while ... loop ... endloop;"
-                     : "a statement is an assignment, an `if` or a `while`");
+                 "a statement is an assignment, an `if` or a `while`");
     advance();
     return false;
 }
@@ -98,11 +110,9 @@ bool Parser::assignment(Statements& out) {
 // result = own_name "=" expression
 bool Parser::result_assignment(const Token& name, Statements& out) {
     if (scope_.block_depth > 0)
-        report_.report(Code::result_in_block, name.span,
-                       {fmt::format("the value of {} is assigned inside a block", quote(name.span)),
-                        "must stand outside of `if` and `while`",
-                        "give the value to a variable here, and that to the object's name at the end"});
-    (scope_.block_depth > 0 ? scope_.result_in_block : scope_.result_seen) = true;
+        scope_.results_in_block.push_back(name.span);
+    else
+        scope_.result_seen = true;
     const Parsed value = value_expression();
     if (!value) return false;
     StatementNode node;
@@ -119,7 +129,7 @@ bool Parser::scalar_assignment(const Token& name, const std::string& lowered, St
     StatementNode node;
     node.kind = StatementKind::assign;
     node.target_span = name.span;
-    if (!find_scalar(lowered)) check_new_name(name, lowered, "variable");
+    if (!find_scalar(lowered)) check_new_name(name, lowered, "a variable");
     node.symbol = scalar_symbol(lowered);
     if (at(TokenKind::left_bracket)) {
         report_.report(Code::unknown_array, name.span,
@@ -254,9 +264,9 @@ bool Parser::branch_tail(StatementNode& node, const Token& opener) {
     if (at_elseif()) return branch(node.second);
     if (accept(TokenKind::key_else)) {
         node.second = statements();
-        if (at(TokenKind::key_else) || at_elseif()) {
+        while (at(TokenKind::key_else) || at_elseif()) {
             stray_end();
-            return true;
+            statements();
         }
     }
     return close_block(TokenKind::key_endif, opener);
@@ -304,10 +314,24 @@ std::optional<ExpressionId> Parser::block_condition(TokenKind follower) {
     return std::nullopt;
 }
 
+/// Known once the outermost block is closed: where it is not, that is the mistake.
+void Parser::report_results_in_block() {
+    for (Span place : scope_.results_in_block)
+        report_.report(Code::result_in_block, place,
+                       {fmt::format("the value of {} is assigned inside a block", quote(place)),
+                        "must stand outside of `if` and `while`",
+                        "give the value to a variable here, and that to the object's name at the end"});
+    scope_.results_reported = scope_.results_reported || !scope_.results_in_block.empty();
+    scope_.results_in_block.clear();
+}
+
 /// The closing word of a block and its `;`. A wrong closing word counts as ours when no outer block could
 /// want it.
 bool Parser::close_block(TokenKind closer, const Token& opener) {
-    if (accept(closer)) return expect_semicolon(to_string(closer));
+    if (accept(closer)) {
+        if (scope_.block_depth == 1) report_results_in_block();
+        return expect_semicolon(to_string(closer));
+    }
     report_.report(
         Code::unclosed_block, opener.span,
         {fmt::format("this {} has no {}", to_string(opener.kind), to_string(closer)), "opened here",
