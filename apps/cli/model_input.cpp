@@ -1,0 +1,240 @@
+// Implementation of model_input.h.
+#include "model_input.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <thread>
+
+#include <fmt/format.h>
+
+#include "input_stream.h"
+#include "parameters.h"
+#include "terminal.h"
+#include "values.h"
+
+namespace frep::cli {
+
+namespace {
+
+constexpr std::size_t source_limit = std::size_t{16} << 20;  // bytes of a model, docs/language.md
+
+Result<std::string> read_source(const std::string& path) {
+    if (path == "-" || is_pipe(path)) return read_stream(path, source_limit);
+    return read_file(path, source_limit);
+}
+
+bool has_extension(const std::string& path, std::string_view extension) {
+    std::string found = std::filesystem::path(path).extension().string();
+    for (char& c : found)
+        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+    return found == extension;
+}
+
+/// The engine of that name; an unknown one is printed.
+std::optional<EngineInfo> choose_engine(const std::optional<std::string>& name) {
+    std::vector<std::string_view> names;
+    for (const EngineInfo& info : engines()) {
+        if (name ? info.name == *name : info.engine == EvaluatorOptions{}.engine) return info;
+        names.push_back(info.name);
+    }
+    print_error(fmt::format("--engine: this program has no engine `{}`", *name));
+    print_help_line(fmt::format("it has: {}", fmt::join(names, ", ")));
+    return std::nullopt;
+}
+
+/// Engine, steps and threads into `out`; false when one is wrong, which is printed.
+bool read_running_options(const ModelOptions& options, PreparedModel& out) {
+    const auto engine = choose_engine(options.engine);
+    if (!engine) return false;
+    out.evaluator.engine = engine->engine;
+    out.engine = engine->name;
+    if (options.max_steps) {
+        const auto steps = parse_integer(*options.max_steps, 1, std::int64_t{1} << 53);
+        if (!steps) return usage_error("--max-steps: " + steps.error().message), false;
+        out.evaluator.max_steps = *steps;
+    }
+    std::int64_t threads = 0;
+    if (options.threads) {
+        const auto given = parse_integer(*options.threads, 0, 1024);
+        if (!given) return usage_error("-j: " + given.error().message), false;
+        threads = *given;
+    }
+    if (threads == 0) threads = std::max(1U, std::thread::hardware_concurrency());
+    out.threads = static_cast<int>(threads);
+    return true;
+}
+
+}  // namespace
+
+std::optional<Model> read_model(const std::string& path, int& code) {
+    if (path.empty()) {
+        code = usage_error("a model is missing: give the name of a .hf file");
+        return std::nullopt;
+    }
+    if (has_extension(path, ".vm")) {
+        code = usage_error("models in .vm form come with a later version; this one reads HyperFun (.hf)");
+        return std::nullopt;
+    }
+    const auto bytes = read_source(path);
+    if (!bytes) {
+        code = fail(bytes.error());
+        return std::nullopt;
+    }
+    const std::string folder = path == "-" ? "" : std::filesystem::path(path).parent_path().string();
+    return Model(Source(path == "-" ? "<stdin>" : to_valid_utf8(path), *bytes), files_of_folder(folder));
+}
+
+std::optional<Model> load_model(const std::string& path, int& code) {
+    auto model = read_model(path, code);
+    if (!model || model->ok()) return model;
+    print_diagnostics(model->diagnostics(), model->source());
+    code = exit_invalid_model;
+    return std::nullopt;
+}
+
+std::optional<std::size_t> choose_object(const Model& model, std::string_view name, int& code) {
+    const auto found = model.find_object(name);
+    if (found) return found;
+    print_error(fmt::format("--object: the model has no object `{}`", name));
+    if (const std::string_view near = model.nearest_object(name); !near.empty()) {
+        print_help_line(fmt::format("did you mean `{}`?", near));
+    } else {
+        std::string names;
+        for (const lang::Object& object : model.program().objects) {
+            if (names.size() > 200) break;
+            names += (names.empty() ? "" : ", ") + object.written_name;
+        }
+        print_help_line("it has: " + names);
+    }
+    code = exit_usage;
+    return std::nullopt;
+}
+
+void declare_model_options(CommandLine& line, ModelOptions& options) {
+    line.positional("MODEL", options.input, "HyperFun file, - for standard input");
+    line.text("--object", options.object, "NAME", "object to take (default my_model, else the first)");
+    line.text("-a", options.values, "V,V,...", "values of the parameters a[1], a[2], ...");
+    line.texts("--param", options.named_values, "NAME=V",
+               "value of one parameter: its name, or a[3] (repeatable)");
+    line.text("--map", options.map, "MAP",
+              "x, y, z or a number for every coordinate; or NAME=V to freeze some");
+    line.text("--engine", options.engine, "NAME", "engine to evaluate with (see frep info --engines)");
+    line.text("--max-steps", options.max_steps, "N", "loop steps at one point (default 1000000)");
+    line.text("-j,--threads", options.threads, "N", "threads (default: all cores); the result is the same");
+}
+
+std::optional<PreparedModel> prepare_model(const ModelOptions& options, int& code) {
+    auto model = load_model(options.input, code);
+    if (!model) return std::nullopt;
+    code = exit_usage;
+    const auto object = choose_object(*model, options.object.value_or(""), code);
+    if (!object) return std::nullopt;
+    PreparedModel out{std::move(*model), *object, {}, {}, {}, {}, false, 1};
+    if (!read_running_options(options, out)) return std::nullopt;
+    const auto count = static_cast<std::size_t>(out.header().coordinates());
+    out.map_given = options.map.has_value();
+    auto map = options.map ? parse_map(*options.map, count) : AxisMap::standard(static_cast<int>(count));
+    if (!map) return usage_error("--map: " + map.error().message), std::nullopt;
+    out.map = std::move(*map);
+    const auto parameters = read_parameters(out.model, *object, options.values, options.named_values);
+    if (!parameters) return std::nullopt;
+
+    Diagnostics found = out.model.diagnostics();
+    auto lowered = out.model.lower(*object, *parameters, found);
+    print_diagnostics(found, out.model.source());
+    if (!lowered) {
+        code = exit_invalid_model;
+        return std::nullopt;
+    }
+    out.lowered = std::move(*lowered);
+    code = exit_ok;
+    return out;
+}
+
+std::string coordinate_name(std::size_t index) {
+    static constexpr std::string_view names = "xyzt";
+    return index < names.size() ? std::string(1, names[index]) : "x" + std::to_string(index + 1);
+}
+
+namespace {
+
+std::string folded(std::string_view text) {
+    std::string out(text);
+    for (char& c : out)
+        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+    return out;
+}
+
+Error map_error(std::string message) { return {ErrorKind::invalid_argument, std::move(message)}; }
+
+/// Freezes the coordinate that `piece` (NAME=V) names.
+Status freeze(std::string_view piece, AxisMap& map) {
+    const std::size_t equals = piece.find('=');
+    const std::string name = folded(piece.substr(0, equals));
+    const auto value = parse_number(piece.substr(equals + 1));
+    if (!value) return value.error();
+    for (std::size_t i = 0; i < map.coordinates.size(); ++i) {
+        if (name != coordinate_name(i) && name != "x" + std::to_string(i + 1)) continue;
+        map.coordinates[i] = {.axis = -1, .value = *value};
+        return {};
+    }
+    return map_error(fmt::format("the object has no coordinate `{}`", name));
+}
+
+}  // namespace
+
+Result<AxisMap> parse_map(std::string_view text, std::size_t count) {
+    const std::vector<std::string_view> pieces = split_at_commas(text);
+    const auto is_named = [](std::string_view piece) { return piece.find('=') != std::string_view::npos; };
+    const auto named = static_cast<std::size_t>(std::count_if(pieces.begin(), pieces.end(), is_named));
+    if (named > 0 && named < pieces.size())
+        return map_error("give an entry for every coordinate, or NAME=V entries only");
+    AxisMap map = AxisMap::standard(static_cast<int>(count));
+    if (named > 0) {
+        for (const std::string_view piece : pieces)
+            if (const Status status = freeze(piece, map); !status) return status.error();
+        return map;
+    }
+    if (pieces.size() != count)
+        return map_error(
+            fmt::format("`{}` has {} entries, the object has {} coordinates", text, pieces.size(), count));
+    for (std::size_t i = 0; i < count; ++i) {
+        const std::string entry = folded(pieces[i]);
+        if (entry == "x" || entry == "y" || entry == "z") {
+            map.coordinates[i] = {.axis = entry[0] - 'x', .value = 0};
+        } else {
+            const auto value = parse_number(entry);
+            if (!value) return map_error(fmt::format("`{}` is neither x, y, z nor a number", pieces[i]));
+            map.coordinates[i] = {.axis = -1, .value = *value};
+        }
+    }
+    return map;
+}
+
+void warn_undefined(const PreparedModel& prepared, NodeId root, std::span<const double> point,
+                    const std::string& message) {
+    const auto causes = find_undefined(prepared.field(), root, point, prepared.evaluator.max_steps);
+    const UndefinedCause* first = nullptr;
+    for (const UndefinedCause& cause : causes) {
+        if (cause.origin.end == 0) continue;  // a node without a place
+        if (!first || cause.origin.begin < first->origin.begin) first = &cause;
+    }
+    if (!first) return print_warning(message);
+    Diagnostic d;
+    d.severity = Severity::warning;
+    d.message = message;
+    d.span = first->origin;
+    d.label = "no value here";
+    print_uncoded(d, prepared.model.source());
+}
+
+std::string point_text(std::span<const double> point) {
+    std::string out = "(";
+    for (const double value : point) {
+        if (out.size() > 1) out += ", ";
+        append_number(out, value);
+    }
+    return out + ")";
+}
+
+}  // namespace frep::cli

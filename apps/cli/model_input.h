@@ -1,0 +1,66 @@
+// From the options that the evaluating verbs share to a field that is ready to be evaluated: reading the
+// model, choosing the object, its parameters, the engine and the map of coordinates. Everything that goes
+// wrong is printed here. Tested by tests/cli.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "command_line.h"
+#include "frep/frep.h"
+
+namespace frep::cli {
+
+/// Reads and parses the model `path` (`-`: standard input). With errors in the text, or when it cannot be
+/// read, they are printed, `code` is set and nothing comes back; warnings are left to the caller.
+std::optional<Model> load_model(const std::string& path, int& code);
+
+/// As load_model(), without printing the findings: for `frep check`.
+std::optional<Model> read_model(const std::string& path, int& code);
+
+/// The object called `name` (empty: the default one); an unknown name is printed, with `code` 2.
+std::optional<std::size_t> choose_object(const Model& model, std::string_view name, int& code);
+
+/// Options of the verbs that evaluate a model, as given.
+struct ModelOptions {
+    std::string input;
+    std::optional<std::string> object, values, engine, map, max_steps, threads;
+    std::vector<std::string> named_values;
+};
+void declare_model_options(CommandLine& line, ModelOptions& options);
+
+/// What they mean.
+struct PreparedModel {
+    Model model;
+    std::size_t object = 0;
+    lang::Lowered lowered;
+    EvaluatorOptions evaluator;
+    std::string_view engine;
+    AxisMap map;
+    bool map_given = false;
+    int threads = 1;
+
+    const lang::Object& header() const { return model.program().objects[object]; }
+    const Field& field() const { return lowered.field; }
+};
+
+/// Reads everything and prints the model's findings. Nothing when something is wrong; `code` is then set.
+std::optional<PreparedModel> prepare_model(const ModelOptions& options, int& code);
+
+/// Names of a coordinate, first = 0: "x", and "x1".
+std::string coordinate_name(std::size_t index);
+
+/// The map that `text` means for `count` coordinates: entries for all, or NAME=V only.
+Result<AxisMap> parse_map(std::string_view text, std::size_t count);
+
+/// A warning: `message`, and the place in the model's text where `root` begins to be undefined at `point`.
+void warn_undefined(const PreparedModel& prepared, NodeId root, std::span<const double> point,
+                    const std::string& message);
+
+/// "(1, 2.5, -3)".
+std::string point_text(std::span<const double> point);
+
+}  // namespace frep::cli
