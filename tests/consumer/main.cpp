@@ -4,7 +4,8 @@
 #include <frep/frep.h>
 
 int main() {
-    const auto model = frep::compile("my_model(x[3], a[1])\n{\n  my_model = 4 - x[1]^2 - x[2]^2 - x[3]^2;\n}\n");
+    const auto model =
+        frep::compile("my_model(x[3], a[1])\n{\n  my_model = 4 - x[1]^2 - x[2]^2 - x[3]^2;\n}\n");
     if (!model) return std::fputs(model.error().message.c_str(), stderr), 1;
     const auto field = model->field();
     if (!field) return std::fputs(field.error().message.c_str(), stderr), 1;
