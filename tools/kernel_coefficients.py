@@ -117,7 +117,8 @@ def parts(names, meaning, x, sizes):
 
 def main():
     print("// The constants of the math kernels. Written by tools/kernel_coefficients.py (method there).")
-    print("// Do not edit. Checked by tests/unit/math/kernels_test.cpp against MPFR.\n#pragma once\n\n#include <cstdint>\n")
+    print("// Do not edit. Checked by tests/unit/math/kernels_test.cpp against MPFR.\n#pragma once\n")
+    print("#include <cstdint>\n")
     print('#include "frep/math/isa.h"\n\nFREP_MATH_OPEN\nnamespace coefficients {\n')
     polynomial("exp_tail", "(e^z - 1 - z)/z^2", series(lambda k: Fraction(1, factorial(k + 2)), 40),
                "-0.3467", "0.3467", "2e-18")
