@@ -67,7 +67,7 @@ count_tests() {
                 rest = substr($0, RLENGTH + 1)
                 name = rest
                 sub(/ .*/, "", name)
-                status[name] = rest ~ / Passed / ? "passed" : rest ~ /\*\*\*Skipped / ? "skipped" : "failed"
+                status[name] = rest ~ / Passed / ? "passed" : rest ~ /\*\*\*(Skipped|Not Run \(Disabled\)) / ? "skipped" : "failed"
             }
             next
         }

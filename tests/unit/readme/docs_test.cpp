@@ -26,14 +26,14 @@ struct Example {
 std::vector<Example> examples_of(const std::filesystem::path& path) {
     const std::string page = test::read_text(path.string());
     std::vector<Example> out;
-    const std::string fence = "```hyperfun";
+    const std::string fence = "\n```hyperfun";
     for (std::size_t at = page.find(fence); at != std::string::npos; at = page.find(fence, at)) {
-        const std::size_t line_end = page.find('\n', at);
+        const std::size_t line_end = page.find('\n', at + 1);
         const std::size_t end = page.find("\n```", line_end);
         REQUIRE(end != std::string::npos);
         std::string code = page.substr(at + fence.size(), line_end - at - fence.size());
         code.erase(std::remove(code.begin(), code.end(), ' '), code.end());
-        const auto line = std::count(page.begin(), page.begin() + static_cast<std::ptrdiff_t>(at), '\n') + 1;
+        const auto line = std::count(page.begin(), page.begin() + static_cast<std::ptrdiff_t>(at), '\n') + 2;
         out.push_back({path.filename().string() + ":" + std::to_string(line), code,
                        page.substr(line_end + 1, end - line_end)});
         at = end;
