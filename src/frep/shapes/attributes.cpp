@@ -182,7 +182,7 @@ Rows attribute_rows() {
                          "o = (1-w) i1 + w i2, w = t^2 (3 - 2 t), t clamped to 0..1"},
                         false),
         row<&clamp>("hfA_Clamp", "f, a, b", {"f clamped to a..b.", "min(max(f, a), b)", from}),
-        row<&step>("hfA_Step", "f, a", {"Step at a.", "0 for f < a, else 1", from}),
+        row<&step>("hfA_Step", "f, a", {"Step from 0 to 1 at a.", "0 for f < a, else 1", from}),
         row<&pulse_old>("hfA_Pulse", "f, hi, lo",
                         {"1 between two bounds, else 0.", "1 for lo <= f <= hi, else 0", from,
                          "The upper bound comes first; hfA_PulseBetween takes lo, hi."}),

@@ -99,7 +99,7 @@ Expression elliptic_cone(Build& build, Array x, Array center, Expression a, Expr
 Rows primitive_rows() {
     constexpr std::string_view from = "adzhiev1999";
     return {
-        row<&sphere>("hfSphere", "x, center, R", {"Ball.", "R^2 - X^2 - Y^2 - Z^2", from}),
+        row<&sphere>("hfSphere", "x, center, R", {"Ball of radius R.", "R^2 - X^2 - Y^2 - Z^2", from}),
         row<&ellipsoid>("hfEllipsoid", "x, center, a, b, c",
                         {"Ellipsoid with axes along the coordinates.", "1 - (X/a)^2 - (Y/b)^2 - (Z/c)^2",
                          from, "A semi-axis nearer to 0 than 1e-6 gives the error value -1111111111111."}),

@@ -95,10 +95,10 @@ Expression taper(Build& build, ArrayInOut point, Expression p1, Expression p2, E
     Expression ratio;
     if (k1 && k2 && *k1 < *k2) {  // clamping is tight for intervals and smooth for gradients
         const Expression t = min(max((p - p1) / (p2 - p1), 0.0), 1.0);
-        ratio = (1.0 - t) * s1 + t * s2;
+        ratio = s1 + t * (s2 - s1);
     } else {
         const Expression t = (p - p1) / (p2 - p1);
-        const Expression between = (1.0 - t) * s1 + t * s2;
+        const Expression between = s1 + t * (s2 - s1);
         ratio = select(less_equal(p, p1), s1, select(less_equal(p2, p), s2, between));
     }
     const auto q1 = build.graph.constant_value(s1.id()), q2 = build.graph.constant_value(s2.id());

@@ -86,16 +86,15 @@ T evaluate(const Expression& root, const std::vector<T>& point) {
         } else {
             std::vector<T> arguments;
             for (const NodeId a : graph.arguments(id)) arguments.push_back(values[a]);
-            const auto block = info(node.op).kind == OpKind::block ? graph.block_of(id) : std::span<const double>();
+            const auto block =
+                info(node.op).kind == OpKind::block ? graph.block_of(id) : std::span<const double>();
             values[id] = meaning<T>(node.op, arguments, block);
         }
     }
     return values[root.id()];
 }
 
-inline double at(const Expression& f, double x, double y, double z) {
-    return evaluate<double>(f, {x, y, z});
-}
+inline double at(const Expression& f, double x, double y, double z) { return evaluate<double>(f, {x, y, z}); }
 
 /// F and its gradient.
 inline math::Dual<double> gradient_at(const Expression& f, double x, double y, double z) {

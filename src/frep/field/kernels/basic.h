@@ -132,4 +132,19 @@ T pick(const T* lead, Data<T> data) {
     return value;
 }
 
+/// Undefined only where the index can leave the table.
+inline math::Interval pick(const math::Interval* lead, Data<math::Interval> data) {
+    const math::Interval index = math::round_half_up(lead[0]);
+    math::Interval value = math::Interval::empty();
+    if (index.is_empty()) return value;
+    const double count = static_cast<double>(data.size());
+    const bool leaves = index.maybe_undefined || index.lo < 1.0 || index.hi > count;
+    const double first = index.lo < 1.0 ? 1.0 : index.lo;
+    for (double i = first; i <= index.hi && i <= count; i += 1.0) {
+        const math::Interval item = data[static_cast<std::size_t>(i) - 1];
+        value = i == first ? item : math::hull(value, item);
+    }
+    return value.flagged(leaves);
+}
+
 }  // namespace frep::kernels

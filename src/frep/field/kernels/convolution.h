@@ -166,17 +166,19 @@ T triangle_integral(const T* lead, const Triangle<T>& a, T s) {
     return math::select(math::equal(s, zero<T>()), a.area, sum / (2.0 * (k * s)));
 }
 
+/// Range of one coordinate of a triangle's corners.
+inline Interval corner_span(const Triangle<Interval>& a, int axis) {
+    const auto coordinate = [&](std::size_t k) {
+        return axis == 0 ? a.corner[k].x : axis == 1 ? a.corner[k].y : a.corner[k].z;
+    };
+    return math::hull(math::hull(coordinate(0), coordinate(1)), coordinate(2));
+}
+
 /// Bounds of the squared distance between a box of points and a triangle.
 inline Interval square_distance_range(const Interval* lead, const Triangle<Interval>& a) {
     double low = 0.0, high = 0.0;
-    for (int axis = 0; axis < 3; ++axis) {
-        const auto coordinate = [&](std::size_t k) {
-            return axis == 0 ? a.corner[k].x : axis == 1 ? a.corner[k].y : a.corner[k].z;
-        };
-        const Interval span = math::hull(math::hull(coordinate(0), coordinate(1)), coordinate(2));
-        const Interval apart = math::square(lead[axis] - span);
-        low = math::next_down(low + apart.lo);
-    }
+    for (int axis = 0; axis < 3; ++axis)
+        low = math::next_down(low + math::square(lead[axis] - corner_span(a, axis)).lo);
     for (const Triple<Interval>& c : a.corner) {
         const double r2 = sum_of_squares(lead[0] - c.x, lead[1] - c.y, lead[2] - c.z).hi;
         high = r2 > high ? r2 : high;
@@ -184,17 +186,30 @@ inline Interval square_distance_range(const Interval* lead, const Triangle<Inter
     return {low > 0.0 ? low : 0.0, high};
 }
 
+/// The closed form cut to area times the kernel, and by the mean value form with the slope
+/// -4 S^2 area (p - q)/(1 + S^2 r^2)^3, q in the triangle.
+inline Interval triangle_range(const Interval* lead, const Triangle<Interval>& a, Interval s) {
+    Interval value = triangle_integral(lead, a, s);
+    const Interval s2 = math::square(s), kernel = Interval(1.0) + s2 * square_distance_range(lead, a);
+    const Interval range = a.area / math::square(kernel);
+    // what the closed form may lose by rounding: it is a sum of terms below 1/S^2
+    const double lost = 1e-14 * (s2.lo > 0.0 ? 1.0 / s2.lo : math::infinity);
+    value = cut(value, range.lo - lost, range.hi + lost);
+    double centre[3];
+    Interval middle[3];
+    for (int i = 0; i < 3; ++i) middle[i] = centre[i] = centre_of(lead[i]);
+    const Interval steep = Interval(-4.0) * s2 * a.area / (kernel * math::square(kernel));
+    const Interval there = widened(triangle_integral(middle, a, s), lost);
+    return by_mean_value(value, there, lead, centre,
+                         [&](int i) { return steep * (lead[i] - corner_span(a, i)); });
+}
+
 template <class T>
 T triangle_term(const T* lead, const Triangle<T>& a, T s) {
-    const T value = triangle_integral(lead, a, s);
     if constexpr (is_interval<T>) {
-        const Interval r2 = square_distance_range(lead, a), s2 = math::square(s);
-        const Interval range = a.area * cauchy(s2, r2);
-        // what the closed form may lose by rounding: it is a sum of terms below 1/S^2
-        const double lost = 1e-14 * (s2.lo > 0.0 ? 1.0 / s2.lo : math::infinity);
-        return cut(value, range.lo - lost, range.hi + lost);
+        return triangle_range(lead, a, s);
     } else {
-        return value;
+        return triangle_integral(lead, a, s);
     }
 }
 
@@ -217,19 +232,51 @@ T arc_primitive(T t, T k, T m, T w2) {
     return m * math::sin(t) / (w2 * (k - m * math::cos(t))) + 2.0 * k / (w2 * w) * angle;
 }
 
+/// Smallest and largest 1 + S^2 distance^2 to the full circle.
+template <class T>
+struct ArcReach {
+    T near, far;
+    ArcReach(T rho, T z, T r, T s)
+        : near(1.0 + math::square(s) * (math::square(r - rho) + math::square(z))),
+          far(1.0 + math::square(s) * (math::square(r + rho) + math::square(z))) {}
+};
+
 /// Arc of radius r about the origin of the local plane, from the x axis by theta.
 template <class T>
 T arc_integral(T x, T y, T z, T r, T theta, T s) {
-    const T rho = math::hypot(x, y), phi = math::atan2(y, x), s2 = math::square(s), z2 = math::square(z);
-    const T near = 1.0 + s2 * (math::square(r - rho) + z2), far = 1.0 + s2 * (math::square(r + rho) + z2);
-    const T k = 1.0 + s2 * (math::square(r) + math::square(rho) + z2), m = 2.0 * s2 * r * rho;
-    const T value = arc_primitive(theta - phi, k, m, near * far) - arc_primitive(-phi, k, m, near * far);
-    if constexpr (is_interval<T>) {
-        const double lost = 1e-14 * magnitude(theta) + 1e-14;
-        return cut(value, (theta / math::square(far)).lo - lost, (theta / math::square(near)).hi + lost);
-    } else {
-        return value;
+    const T rho = math::hypot(x, y), phi = math::atan2(y, x), s2 = math::square(s);
+    const ArcReach<T> reach(rho, z, r, s);
+    const T k = 1.0 + s2 * (math::square(r) + math::square(rho) + math::square(z)), m = 2.0 * s2 * r * rho;
+    const T w2 = reach.near * reach.far;
+    return arc_primitive(theta - phi, k, m, w2) - arc_primitive(-phi, k, m, w2);
+}
+
+/// The closed form cut to theta times the kernel, and by the mean value form with the slope
+/// -4 S^2 theta (p - q)/(1 + S^2 distance^2)^3, q on the arc.
+inline Interval arc_range(const Interval* p, Interval r, Interval theta, Interval s) {
+    const ArcReach<Interval> reach(math::hypot(p[0], p[1]), p[2], r, s);
+    const Interval s2 = math::square(s), sweep = math::hull(Interval(0.0), theta);
+    const Interval from_arc[3] = {p[0] - r * math::cos(sweep), p[1] - r * math::sin(sweep), p[2]};
+    const Interval kernel = cut(Interval(1.0) + s2 * sum_of_squares(from_arc[0], from_arc[1], from_arc[2]),
+                                reach.near.lo, reach.far.hi);
+    const Interval range = theta / math::square(kernel);
+    bool undefined = theta.maybe_undefined || r.maybe_undefined || s.maybe_undefined;
+    double centre[3];
+    Interval middle[3];
+    for (int i = 0; i < 3; ++i) {
+        if (p[i].is_empty()) return Interval::empty();
+        undefined = undefined || p[i].maybe_undefined;
+        middle[i] = centre[i] = centre_of(p[i]);
     }
+    const double lost = 1e-14 * magnitude(theta);
+    Interval value = arc_integral(p[0], p[1], p[2], r, theta, s);
+    if (value.is_empty()) value = {-math::infinity, math::infinity};
+    value = cut(Interval(value.lo, value.hi), range.lo - lost, range.hi + lost);
+    const Interval at_centre = arc_integral(middle[0], middle[1], middle[2], r, theta, s);
+    const Interval steep = Interval(-4.0) * s2 * theta / (kernel * math::square(kernel));
+    const Interval there = widened(Interval(at_centre.lo, at_centre.hi), lost);
+    return by_mean_value(value, there, p, centre, [&](int i) { return steep * from_arc[i]; })
+        .flagged(undefined);
 }
 
 /// The angle about the axis has no derivative on the axis: derivatives there are taken a millionth of the
@@ -292,9 +339,13 @@ T conv_arc(const T* lead, Data<T> data) {
     for (std::size_t i = 0; i + 13 <= data.size(); i += 13) {
         const Triple<T> d = Triple<T>{lead[0], lead[1], lead[2]} - triple<T>(data, i);
         const Triple<T> u = triple<T>(data, i + 3), v = triple<T>(data, i + 6);
-        const T integral =
-            arc_integral(dot(d, u), dot(d, v), dot(d, cross(u, v)), data[i + 9], data[i + 10], data[i + 11]);
-        sum += data[i + 12] * integral;
+        const T p[3] = {dot(d, u), dot(d, v), dot(d, cross(u, v))};
+        if constexpr (is_interval<T>) {
+            sum += data[i + 12] * arc_range(p, data[i + 9], data[i + 10], data[i + 11]);
+        } else {
+            const T integral = arc_integral(p[0], p[1], p[2], data[i + 9], data[i + 10], data[i + 11]);
+            sum += data[i + 12] * integral;
+        }
     }
     return sum;
 }

@@ -118,7 +118,7 @@ inline Interval sardf_int(Interval x, Interval y, Interval r, Interval alpha) {
     const double low = distance_detail::sardf(x.lo, y.lo, r.hi, alpha.lo);
     const double high = distance_detail::sardf(x.hi, y.hi, r.lo, alpha.lo);
     if (low != low || high != high) return {-math::infinity, math::infinity, true};
-    const double pad = 0x1p-46 * (magnitude(x) + magnitude(y)) + 0x1p-48 * r.hi;
+    const double pad = 0x1p-46 * (magnitude(x) + magnitude(y)) + 0x1p-48 * magnitude(r);
     const auto slack = [&](double v) { return v == 0.0 ? 0.0 : pad; };
     return {math::next_down(low - slack(low)), math::next_up(high + slack(high)), undefined};
 }

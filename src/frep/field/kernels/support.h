@@ -169,6 +169,17 @@ inline double magnitude(Interval a) {
 }
 inline bool is_point(Interval a) { return a.lo == a.hi; }
 
+/// Cuts `whole` by the mean value form: the range at the centre plus slopes times deviations.
+template <class Slope>
+Interval by_mean_value(Interval whole, Interval at_centre, const Interval* p, const double* centre,
+                       Slope slope) {
+    if (whole.is_empty() || at_centre.is_empty()) return whole;
+    Interval sum = at_centre;
+    for (int i = 0; i < 3; ++i) sum += slope(i) * (p[i] - Interval(centre[i]));
+    return sum.is_empty() || sum.maybe_undefined ? whole : cut(whole, sum.lo, sum.hi);
+}
+inline double centre_of(Interval a) { return 0.5 * a.lo + 0.5 * a.hi; }
+
 /// Range of a decreasing function over q: its ranges at the two ends.
 template <class F>
 Interval decreasing(F f, Interval q) {
