@@ -67,19 +67,14 @@ class Assembly {
     }
 
     void copy_nodes() {
-        mesh_.vertices.resize(nodes_);
-        mesh_.normals.resize(nodes_);
-        const std::size_t tasks = (parts_.size() + blocks_a_task - 1) / blocks_a_task;
-        parallel_for(job_, tasks, [&](std::size_t t) {
-            const std::size_t end = std::min((t + 1) * blocks_a_task, parts_.size());
-            for (std::size_t i = t * blocks_a_task; i < end; ++i) {
-                BlockMesh& part = *parts_[i];
-                std::copy(part.positions.begin(), part.positions.end(), mesh_.vertices.begin() + bases_[i]);
-                std::copy(part.normals.begin(), part.normals.end(), mesh_.normals.begin() + bases_[i]);
-                part.positions = {};
-                part.normals = {};
-            }
-        });
+        mesh_.vertices.reserve(nodes_);
+        mesh_.normals.reserve(nodes_);
+        for (const auto& part : parts_) {
+            mesh_.vertices.insert(mesh_.vertices.end(), part->positions.begin(), part->positions.end());
+            mesh_.normals.insert(mesh_.normals.end(), part->normals.begin(), part->normals.end());
+            part->positions = {};
+            part->normals = {};
+        }
     }
 
     /// The blocks that the nodes of block i may lie in: itself and the next ones; -1 where there is none.

@@ -17,7 +17,9 @@ constexpr double outside_by_decree = -std::numeric_limits<double>::infinity();
 
 double component(const Vec3& v, std::size_t axis) { return axis == 0 ? v.x : axis == 1 ? v.y : v.z; }
 
-void set_component(Vec3& v, int axis, double value) { (axis == 0 ? v.x : axis == 1 ? v.y : v.z) = value; }
+void set_component(Vec3& v, std::size_t axis, double value) {
+    (axis == 0 ? v.x : axis == 1 ? v.y : v.z) = value;
+}
 
 double magnitude(double v) { return v < 0 ? -v : v; }
 
@@ -37,25 +39,98 @@ Vec3 BlockContourer::sample_point(const Local& l) const {
     return grid_.point(with_layer(0, l[0]) - 1, with_layer(1, l[1]) - 1, with_layer(2, l[2]) - 1);
 }
 
+void BlockContourer::Brackets::clear() {
+    lower.clear();
+    for (std::vector<double>* v : {&start, &length, &inside, &outside}) v->clear();
+    wall.clear();
+    node.clear();
+}
+
 std::unique_ptr<BlockMesh> BlockContourer::contour(std::uint64_t code) {
+    place(code);
     if (!sample(code)) return nullptr;
-    mesh_ = {};
-    brackets_.clear();
+    mesh_.edges.clear();
+    mesh_.positions.clear();
+    mesh_.normals.clear();
+    mesh_.polygons.clear();
+    for (Brackets& b : brackets_) b.clear();
     collect_nodes();
     bisect();
     set_positions();
     take_normals();
     add_cells();
     if (mesh_.edges.empty() && mesh_.polygons.empty()) return nullptr;
-    mesh_.polygons.shrink_to_fit();
-    return std::make_unique<BlockMesh>(std::move(mesh_));
+    return std::make_unique<BlockMesh>(mesh_);  // a copy: exactly as large as needed
 }
 
-/// Counts an undefined sample of this block's own and notes inside samples at the sides of the box.
-void BlockContourer::note_sample(const Local& l, double value, std::uint64_t code) {
-    const bool own = l[0] < block_side && l[1] < block_side && l[2] < block_side;
-    if (value != value && own) undefined.add(1, code, (l[2] * block_side + l[1]) * block_side + l[0]);
-    if (!(value >= 0)) return;
+void BlockContourer::place(std::uint64_t code) {
+    const Local block = morton_decode(code);
+    is_at_side_ = false;
+    for (std::size_t a = 0; a < 3; ++a) {
+        lo_[a] = block[a] * block_side;
+        first_[a] = lo_[a] == 0 ? 1 : 0;
+        const std::uint32_t end = grid_.cells[a] + 1 - lo_[a];  // the box's last sample
+        last_[a] = end < block_side ? end : block_side;
+        is_at_side_ = is_at_side_ || lo_[a] == 0 || end <= block_side;
+    }
+}
+
+/// Step 1: the values at the corners of the block's cells. False if there is no surface among them.
+bool BlockContourer::sample(std::uint64_t code) {
+    x_.clear();
+    y_.clear();
+    z_.clear();
+    Local l{};
+    for (l[2] = first_[2]; l[2] <= last_[2]; ++l[2]) {
+        const double z = grid_.coordinate(2, lo_[2] + l[2] - 1);
+        for (l[1] = first_[1]; l[1] <= last_[1]; ++l[1]) {
+            const double y = grid_.coordinate(1, lo_[1] + l[1] - 1);
+            for (l[0] = first_[0]; l[0] <= last_[0]; ++l[0]) {
+                x_.push_back(grid_.coordinate(0, lo_[0] + l[0] - 1));
+                y_.push_back(y);
+                z_.push_back(z);
+            }
+        }
+    }
+    out_.resize(x_.size());
+    field_.values({x_, y_, z_}, out_);
+    if (x_.size() < lattice_size) values_.fill(outside_by_decree);
+    const double* next = out_.data();
+    for (l[2] = first_[2]; l[2] <= last_[2]; ++l[2]) {
+        for (l[1] = first_[1]; l[1] <= last_[1]; ++l[1]) {
+            double* row = &values_[lattice_index({0, l[1], l[2]})];
+            for (l[0] = first_[0]; l[0] <= last_[0]; ++l[0]) row[l[0]] = *next++;
+        }
+    }
+    std::size_t inside = 0;
+    bool is_defined = true;
+    for (std::size_t i = 0; i < lattice_size; ++i) {
+        inside_[i] = values_[i] >= 0 ? 1 : 0;
+        inside += inside_[i];
+        is_defined = is_defined && values_[i] == values_[i];
+    }
+    if (!is_defined || (is_at_side_ && inside > 0)) note_samples(code);
+    return inside > 0 && (inside < x_.size() || (options_.cap && inside < lattice_size));
+}
+
+/// Counts the undefined samples of this block's own and notes inside samples at the sides of the box.
+void BlockContourer::note_samples(std::uint64_t code) {
+    Local l{};
+    for (l[2] = first_[2]; l[2] <= last_[2]; ++l[2]) {
+        for (l[1] = first_[1]; l[1] <= last_[1]; ++l[1]) {
+            for (l[0] = first_[0]; l[0] <= last_[0]; ++l[0]) {
+                const double value = values_[lattice_index(l)];
+                const bool own = l[0] < block_side && l[1] < block_side && l[2] < block_side;
+                if (value != value && own) {
+                    undefined.add(1, code, (l[2] * block_side + l[1]) * block_side + l[0]);
+                }
+                if (value >= 0) note_inside(l);
+            }
+        }
+    }
+}
+
+void BlockContourer::note_inside(const Local& l) {
     for (std::size_t a = 0; a < 3; ++a) {
         const std::uint32_t i = with_layer(a, l[a]) - 1;
         if (i == 0) touches[2 * a] = true;
@@ -63,51 +138,15 @@ void BlockContourer::note_sample(const Local& l, double value, std::uint64_t cod
     }
 }
 
-/// Step 1: the values at the corners of the block's cells. False if they are all of one sign.
-bool BlockContourer::sample(std::uint64_t code) {
-    const Local block = morton_decode(code);
-    for (std::size_t a = 0; a < 3; ++a) lo_[a] = block[a] * block_side;
-    sampled_.clear();
-    x_.clear();
-    y_.clear();
-    z_.clear();
-    Local l{};
-    for (l[2] = 0; l[2] < lattice_side; ++l[2]) {
-        for (l[1] = 0; l[1] < lattice_side; ++l[1]) {
-            for (l[0] = 0; l[0] < lattice_side; ++l[0]) {
-                values_[lattice_index(l)] = outside_by_decree;
-                if (is_layer(l)) continue;
-                const Vec3 p = sample_point(l);
-                x_.push_back(p.x);
-                y_.push_back(p.y);
-                z_.push_back(p.z);
-                sampled_.push_back(lattice_index(l));
-            }
-        }
-    }
-    out_.resize(x_.size());
-    field_.values({x_, y_, z_}, out_);
-    std::size_t inside = 0;
-    for (std::size_t s = 0; s < sampled_.size(); ++s) {
-        const std::uint32_t at = sampled_[s];
-        values_[at] = out_[s];
-        inside += out_[s] >= 0 ? 1 : 0;
-        note_sample({at % lattice_side, at / lattice_side % lattice_side, at / (lattice_side * lattice_side)},
-                    out_[s], code);
-    }
-    return inside > 0 && (inside < sampled_.size() || (options_.cap && inside < values_.size()));
-}
-
 /// Step 2: a node for every own edge with different signs at its ends, in ascending order of edges.
 void BlockContourer::collect_nodes() {
-    constexpr std::array<std::uint32_t, 3> stride{1, lattice_side, lattice_side * lattice_side};
     Local l{};
     for (l[2] = 0; l[2] < block_side; ++l[2]) {
         for (l[1] = 0; l[1] < block_side; ++l[1]) {
             for (l[0] = 0; l[0] < block_side; ++l[0]) {
                 const std::uint32_t at = lattice_index(l);
                 for (std::size_t a = 0; a < 3; ++a) {
-                    if ((values_[at] >= 0) != (values_[at + stride[a]] >= 0)) add_node(l, a);
+                    if (inside_[at] != inside_[at + stride[a]]) add_node(l, a);
                 }
             }
         }
@@ -117,10 +156,10 @@ void BlockContourer::collect_nodes() {
 void BlockContourer::add_node(const Local& lower, std::size_t axis) {
     Local upper = lower;
     ++upper[axis];
-    const bool lower_is_inside = values_[lattice_index(lower)] >= 0;
+    const bool lower_is_inside = inside_[lattice_index(lower)] != 0;
     const auto edge = static_cast<std::uint16_t>(
         ((lower[2] * block_side + lower[1]) * block_side + lower[0]) * 3 + static_cast<std::uint32_t>(axis));
-    if (is_layer(lower) || is_layer(upper)) {
+    if (is_at_side_ && (is_layer(lower) || is_layer(upper))) {
         const Local& inside = lower_is_inside ? lower : upper;
         std::size_t cap_axis = 0;
         if (!options_.cap || cap_edge(inside, cap_axis) != lower || cap_axis != axis) return;
@@ -128,18 +167,19 @@ void BlockContourer::add_node(const Local& lower, std::size_t axis) {
         add_cap_node(inside);
         return;
     }
-    Bracket b;
-    b.lower = sample_point(lower);
-    b.axis = static_cast<int>(axis);
-    b.upper = component(sample_point(upper), axis);
-    b.inside = lower_is_inside ? 0 : 1;
-    b.outside = lower_is_inside ? 1 : 0;
+    const Vec3 p = sample_point(lower);
+    const double start = component(p, axis);
     const double outside_value = values_[lattice_index(lower_is_inside ? upper : lower)];
-    b.wall = outside_value != outside_value;
-    b.node = static_cast<std::uint32_t>(mesh_.edges.size());
-    brackets_.push_back(b);
+    Brackets& b = brackets_[axis];
+    b.lower.push_back(p);
+    b.start.push_back(start);
+    b.length.push_back(component(sample_point(upper), axis) - start);
+    b.inside.push_back(lower_is_inside ? 0 : 1);
+    b.outside.push_back(lower_is_inside ? 1 : 0);
+    b.wall.push_back(outside_value != outside_value ? 1 : 0);
+    b.node.push_back(static_cast<std::uint32_t>(mesh_.edges.size()));
     mesh_.edges.push_back(edge);
-    mesh_.positions.push_back(b.lower);
+    mesh_.positions.push_back(p);
     mesh_.normals.push_back({0, 0, 0});
 }
 
@@ -165,42 +205,47 @@ void BlockContourer::add_cap_node(const Local& inside) {
         const std::uint32_t e = with_layer(a, inside[a]);
         const double low = e == 1 ? -1 : 0;
         const double high = e == grid_.cells[a] + 1 ? 1 : 0;
-        set_component(normal, static_cast<int>(a), low + high);
+        set_component(normal, a, low + high);
     }
     mesh_.positions.push_back(sample_point(inside));
     mesh_.normals.push_back(normal / length(normal));
 }
 
-/// Values at the middle of every bracket, to out_.
-void BlockContourer::evaluate_brackets() {
-    const std::size_t count = brackets_.size();
-    x_.resize(count);
-    y_.resize(count);
-    z_.resize(count);
-    out_.resize(count);
-    for (std::size_t i = 0; i < count; ++i) {
-        const Bracket& b = brackets_[i];
-        const double start = component(b.lower, static_cast<std::size_t>(b.axis));
-        const double at = start + 0.5 * (b.inside + b.outside) * (b.upper - start);
-        x_[i] = b.axis == 0 ? at : b.lower.x;
-        y_[i] = b.axis == 1 ? at : b.lower.y;
-        z_[i] = b.axis == 2 ? at : b.lower.z;
+/// Puts the middles of the brackets along `axis` into that axis' column, from entry `first` on.
+void BlockContourer::set_middles(std::size_t axis, std::size_t first) {
+    const Brackets& b = brackets_[axis];
+    double* at = column(axis).data() + first;
+    for (std::size_t i = 0; i < b.size(); ++i) {
+        at[i] = b.start[i] + 0.5 * (b.inside[i] + b.outside[i]) * b.length[i];
     }
-    field_.values({x_, y_, z_}, out_);
 }
 
 void BlockContourer::bisect() {
-    if (brackets_.empty()) return;
+    x_.clear();
+    y_.clear();
+    z_.clear();
+    for (const Brackets& b : brackets_) {
+        for (const Vec3& p : b.lower) {
+            x_.push_back(p.x);
+            y_.push_back(p.y);
+            z_.push_back(p.z);
+        }
+    }
+    if (x_.empty()) return;
+    out_.resize(x_.size());
+    const std::array<std::size_t, 3> first{0, brackets_[0].size(), brackets_[0].size() + brackets_[1].size()};
     for (int step = 0; step < bisection_steps; ++step) {
-        evaluate_brackets();
-        for (std::size_t i = 0; i < brackets_.size(); ++i) {
-            Bracket& b = brackets_[i];
-            const double middle = 0.5 * (b.inside + b.outside);
-            if (out_[i] >= 0) {
-                b.inside = middle;
-            } else {
-                b.outside = middle;
-                b.wall = out_[i] != out_[i];
+        for (std::size_t a = 0; a < 3; ++a) set_middles(a, first[a]);
+        field_.values({x_, y_, z_}, out_);
+        for (std::size_t a = 0; a < 3; ++a) {
+            Brackets& b = brackets_[a];
+            const double* value = out_.data() + first[a];
+            for (std::size_t i = 0; i < b.size(); ++i) {
+                const double middle = 0.5 * (b.inside[i] + b.outside[i]);
+                const bool is_inside = value[i] >= 0;
+                b.inside[i] = is_inside ? middle : b.inside[i];
+                b.outside[i] = is_inside ? b.outside[i] : middle;
+                b.wall[i] = is_inside ? b.wall[i] : static_cast<std::uint8_t>(value[i] != value[i]);
             }
         }
     }
@@ -208,57 +253,68 @@ void BlockContourer::bisect() {
 
 /// The inside ends become the nodes, kept away from the corners.
 void BlockContourer::set_positions() {
-    for (const Bracket& b : brackets_) {
-        const double high = b.inside > 1 - node_margin ? 1 - node_margin : b.inside;
-        const double t = high < node_margin ? node_margin : high;
-        const double start = component(b.lower, static_cast<std::size_t>(b.axis));
-        Vec3& p = mesh_.positions[b.node];
-        p = b.lower;
-        set_component(p, b.axis, start + t * (b.upper - start));
+    for (std::size_t a = 0; a < 3; ++a) {
+        const Brackets& b = brackets_[a];
+        for (std::size_t i = 0; i < b.size(); ++i) {
+            const double high = b.inside[i] > 1 - node_margin ? 1 - node_margin : b.inside[i];
+            const double t = high < node_margin ? node_margin : high;
+            set_component(mesh_.positions[b.node[i]], a, b.start[i] + t * b.length[i]);
+        }
     }
 }
 
 /// Normals from the gradient. A wall, where F ends without a zero, has nothing to do with the gradient.
 void BlockContourer::take_normals() {
-    const std::size_t count = brackets_.size();
-    if (count == 0) return;
-    for (std::vector<double>* v : {&x_, &y_, &z_, &out_, &gx_, &gy_, &gz_}) v->resize(count);
-    for (std::size_t i = 0; i < count; ++i) {
-        const Vec3& p = mesh_.positions[brackets_[i].node];
-        x_[i] = p.x;
-        y_[i] = p.y;
-        z_[i] = p.z;
+    const std::size_t count = x_.size();
+    if (brackets_[0].size() + brackets_[1].size() + brackets_[2].size() == 0) return;
+    for (std::vector<double>* v : {&gx_, &gy_, &gz_}) v->resize(count);
+    std::size_t p = 0;
+    for (std::size_t a = 0; a < 3; ++a) {
+        for (const std::uint32_t node : brackets_[a].node) {
+            column(a)[p++] = component(mesh_.positions[node], a);
+        }
     }
     field_.gradients({x_, y_, z_}, out_, {gx_, gy_, gz_});
-    for (std::size_t i = 0; i < count; ++i) {
-        if (!brackets_[i].wall) mesh_.normals[brackets_[i].node] = outward_normal({gx_[i], gy_[i], gz_[i]});
+    p = 0;
+    for (const Brackets& b : brackets_) {
+        for (std::size_t i = 0; i < b.size(); ++i, ++p) {
+            if (!b.wall[i]) mesh_.normals[b.node[i]] = outward_normal({gx_[p], gy_[p], gz_[p]});
+        }
     }
 }
 
 /// Steps 3 and 4: the polygons of the block's cells; cells of the layer only with the cap.
 void BlockContourer::add_cells() {
+    Local begin{}, end{block_side, block_side, block_side};
+    for (std::size_t a = 0; a < 3 && !options_.cap; ++a) {
+        begin[a] = first_[a];
+        end[a] = last_[a] < block_side ? last_[a] : block_side;
+    }
     Local l{};
-    for (l[2] = 0; l[2] < block_side; ++l[2]) {
-        for (l[1] = 0; l[1] < block_side; ++l[1]) {
-            for (l[0] = 0; l[0] < block_side; ++l[0]) {
-                std::array<double, 8> values{};
-                unsigned inside = 0;
-                for (std::size_t c = 0; c < 8; ++c) {
-                    const auto& offset = corner_offsets[c];
-                    values[c] =
-                        values_[lattice_index({l[0] + offset[0], l[1] + offset[1], l[2] + offset[2]})];
-                    inside += values[c] >= 0 ? 1 : 0;
-                }
-                if (inside == 0 || inside == 8) continue;
-                const Local far{l[0] + 1, l[1] + 1, l[2] + 1};
-                if (!options_.cap && (is_layer(l) || is_layer(far))) continue;
-                add_cell(l, values);
+    for (l[2] = begin[2]; l[2] < end[2]; ++l[2]) {
+        for (l[1] = begin[1]; l[1] < end[1]; ++l[1]) {
+            // The four signs across the row at x: 0 all outside, 4 all inside.
+            const std::uint8_t* row = &inside_[lattice_index({0, l[1], l[2]})];
+            const auto across = [row](std::uint32_t x) {
+                return row[x] + row[x + stride[1]] + row[x + stride[2]] + row[x + stride[1] + stride[2]];
+            };
+            int here = across(begin[0]);
+            for (l[0] = begin[0]; l[0] < end[0]; ++l[0]) {
+                const int next = across(l[0] + 1);
+                if (here + next != 0 && here + next != 8) add_cell(l);
+                here = next;
             }
         }
     }
 }
 
-void BlockContourer::add_cell(const Local& corner, const std::array<double, 8>& values) {
+void BlockContourer::add_cell(const Local& corner) {
+    std::array<double, 8> values{};
+    for (std::size_t c = 0; c < 8; ++c) {
+        const auto& offset = corner_offsets[c];
+        values[c] =
+            values_[lattice_index({corner[0] + offset[0], corner[1] + offset[1], corner[2] + offset[2]})];
+    }
     const CellPolygons polygons = trace_cell(values);
     std::size_t at = 0;
     for (std::size_t p = 0; p < polygons.count; ++p) {
@@ -277,8 +333,8 @@ PolygonNode BlockContourer::polygon_node(const Local& cell, std::uint8_t cell_ed
     Local lower{cell[0] + low[0], cell[1] + low[1], cell[2] + low[2]};
     Local upper{cell[0] + high[0], cell[1] + high[1], cell[2] + high[2]};
     std::size_t axis = high[0] != low[0] ? 0 : high[1] != low[1] ? 1 : 2;
-    if (is_layer(lower) || is_layer(upper)) {
-        lower = cap_edge(values_[lattice_index(lower)] >= 0 ? lower : upper, axis);
+    if (is_at_side_ && (is_layer(lower) || is_layer(upper))) {
+        lower = cap_edge(inside_[lattice_index(lower)] ? lower : upper, axis);
     }
     PolygonNode node{};
     constexpr std::uint32_t mask = block_side - 1;

@@ -55,20 +55,23 @@ class BlockContourer {
 
   private:
     static constexpr std::uint32_t lattice_side = block_side + 1;
+    static constexpr std::uint32_t lattice_size = lattice_side * lattice_side * lattice_side;
+    static constexpr std::array<std::uint32_t, 3> stride{1, lattice_side, lattice_side* lattice_side};
     using Local = std::array<std::uint32_t, 3>;  ///< sample of the lattice, 0..8
 
-    /// An edge being bisected: its lower end and direction, and the parameters of the bracket's ends.
-    struct Bracket {
-        Vec3 lower;
-        double upper = 0;  ///< coordinate of the upper end along `axis`
-        int axis = 0;
-        double inside = 0, outside = 0;  ///< parameters 0..1
-        bool wall = false;               ///< the outside end is undefined
-        std::uint32_t node = 0;
+    /// Edges of one direction being bisected, column by column. The bracket is kept as parameters 0..1.
+    struct Brackets {
+        std::vector<Vec3> lower;              ///< lower ends
+        std::vector<double> start, length;    ///< coordinate of the lower end and length, along the axis
+        std::vector<double> inside, outside;  ///< ends of the bracket
+        std::vector<std::uint8_t> wall;       ///< 1: the outside end is undefined
+        std::vector<std::uint32_t> node;      ///< its place in mesh_
+        void clear();
+        std::size_t size() const { return node.size(); }
     };
 
     static std::uint32_t lattice_index(const Local& l) {
-        return (l[2] * lattice_side + l[1]) * lattice_side + l[0];
+        return l[0] * stride[0] + l[1] * stride[1] + l[2] * stride[2];
     }
     std::uint32_t with_layer(std::size_t axis, std::uint32_t local) const { return lo_[axis] + local; }
     bool is_layer(std::size_t axis, std::uint32_t local) const {
@@ -80,8 +83,10 @@ class BlockContourer {
     }
     Vec3 sample_point(const Local& l) const;
 
+    void place(std::uint64_t code);
     bool sample(std::uint64_t code);
-    void note_sample(const Local& l, double value, std::uint64_t code);
+    void note_samples(std::uint64_t code);
+    void note_inside(const Local& l);
     void collect_nodes();
     void add_node(const Local& lower, std::size_t axis);
     void add_cap_node(const Local& inside);
@@ -89,23 +94,26 @@ class BlockContourer {
     /// axis.
     Local cap_edge(const Local& inside, std::size_t& axis) const;
     void bisect();
-    void evaluate_brackets();
+    void set_middles(std::size_t axis, std::size_t first);
     void set_positions();
     void take_normals();
     void add_cells();
-    void add_cell(const Local& corner, const std::array<double, 8>& values);
+    void add_cell(const Local& corner);
     PolygonNode polygon_node(const Local& cell, std::uint8_t cell_edge) const;
+    std::vector<double>& column(std::size_t axis) { return axis == 0 ? x_ : axis == 1 ? y_ : z_; }
 
     const Grid& grid_;
     SampledField& field_;
     BlockOptions options_;
 
-    std::array<std::uint32_t, 3> lo_{};
-    std::array<double, lattice_side * lattice_side * lattice_side> values_{};
-    std::vector<std::uint32_t> sampled_;
+    Local lo_{};               ///< first sample of the block, with layer
+    Local first_{}, last_{};   ///< local samples that are no layer
+    bool is_at_side_ = false;  ///< holds samples of a side of the box
+    std::array<double, lattice_size> values_{};
+    std::array<std::uint8_t, lattice_size> inside_{};
     std::vector<double> x_, y_, z_, out_, gx_, gy_, gz_;
-    std::vector<Bracket> brackets_;
-    BlockMesh mesh_;
+    std::array<Brackets, 3> brackets_;
+    BlockMesh mesh_;  ///< being built; keeps its memory
 };
 
 }  // namespace frep::contouring
