@@ -90,6 +90,15 @@ class Assembly {
         return found;
     }
 
+    /// The vertices of block i's own edges by edge number.
+    std::array<std::uint32_t, edges_a_block> own_vertices(std::size_t i) const {
+        std::array<std::uint32_t, edges_a_block> table;
+        table.fill(no_vertex);
+        std::uint32_t v = bases_[i];
+        for (const std::uint16_t edge : parts_[i]->edges) table[edge] = v++;
+        return table;
+    }
+
     std::uint32_t vertex_of(const PolygonNode& node, const std::array<std::ptrdiff_t, 8>& blocks) const {
         if (blocks[node.neighbour] < 0) return no_vertex;
         const auto block = static_cast<std::size_t>(blocks[node.neighbour]);
@@ -101,6 +110,9 @@ class Assembly {
 
     void cut_polygons(std::size_t task, TaskTriangles& out) {
         const std::size_t end = std::min((task + 1) * blocks_a_task, parts_.size());
+        std::size_t nodes = 0;
+        for (std::size_t i = task * blocks_a_task; i < end; ++i) nodes += parts_[i]->polygons.size();
+        out.triangles.reserve(nodes / 2);  // quadrilaterals make up about the half
         for (std::size_t i = task * blocks_a_task; i < end; ++i) cut_block(i, out);
         out.middle_normals.resize(out.middles.size());
         if (!out.middles.empty()) take_middle_normals(out);
@@ -108,12 +120,13 @@ class Assembly {
 
     void cut_block(std::size_t i, TaskTriangles& out) {
         const std::array<std::ptrdiff_t, 8> blocks = neighbours_of(i);
+        const std::array<std::uint32_t, edges_a_block> own = own_vertices(i);
         std::array<std::uint8_t, 12> edges{};
         std::array<std::uint32_t, 12> vertices{};
         std::size_t count = 0;
         std::vector<std::array<std::uint8_t, 3>> cut;
         for (const PolygonNode& node : parts_[i]->polygons) {
-            const std::uint32_t v = vertex_of(node, blocks);
+            const std::uint32_t v = node.neighbour == 0 ? own[node.edge] : vertex_of(node, blocks);
             if (v == no_vertex) {
                 contradiction_ = true;
                 return;
