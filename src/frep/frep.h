@@ -13,7 +13,7 @@
 #include "frep/base/diagnostic.h"
 #include "frep/base/job.h"
 #include "frep/base/result.h"
-#include "frep/contour/automatic_bounds.h"
+#include "frep/contour/bounds.h"
 #include "frep/contour/contour.h"
 #include "frep/contour/sampled_field.h"
 #include "frep/eval/evaluator.h"

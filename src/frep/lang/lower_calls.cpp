@@ -117,9 +117,12 @@ NodeId Lowerer::inline_object(std::uint32_t object, Items x, Items a, Items& s, 
     const std::uint64_t key = hash_call(object, arguments);
     const auto [first, last] = memo_.equal_range(key);
     for (auto i = first; i != last; ++i) {
-        if (i->second.object != object || i->second.arguments != arguments) continue;
-        s = i->second.attributes;
-        return i->second.result;
+        const Call& known_call = i->second;
+        if (known_call.object != object || known_call.arguments != arguments) continue;
+        if (known_call.guard != unassigned && known_call.guard != guard_) continue;
+        if (known_call.guard != unassigned) ++guarded_uses_;
+        s = known_call.attributes;
+        return known_call.result;
     }
     if (frames_.size() > static_cast<std::size_t>(call_depth_limit)) {
         stop("HF103", fmt::format("more than {} objects call one another in a row", call_depth_limit),
@@ -129,6 +132,7 @@ NodeId Lowerer::inline_object(std::uint32_t object, Items x, Items a, Items& s, 
     static_cast<void>(span);
     const std::size_t statements = in_region() ? target_.region->statements.size() : 0;
     const std::size_t arrays_before = in_region() ? target_.region->arrays.size() : 0;
+    const std::int64_t guarded_before = guarded_uses_;
     Frame callee = make_frame(program_.objects[object]);
     callee.arrays[array_x] = std::move(x);
     callee.arrays[array_a] = std::move(a);
@@ -148,7 +152,9 @@ NodeId Lowerer::inline_object(std::uint32_t object, Items x, Items a, Items& s, 
         for (const std::vector<NodeId>* list :
              {static_cast<const std::vector<NodeId>*>(&arguments), &s.all()})
             for (NodeId id : *list) newest = std::max(newest, id == unassigned ? 0 : id);
-        memo_.emplace(key, Call{object, std::move(arguments), result, s, newest});
+        const NodeId guard = guarded_before == guarded_uses_ ? unassigned : guard_;
+        if (guard != unassigned) newest = std::max(newest, guard);
+        memo_.emplace(key, Call{object, std::move(arguments), result, s, newest, guard});
     }
     return result;
 }

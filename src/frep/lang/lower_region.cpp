@@ -47,7 +47,7 @@ void Lowerer::import_frame(const Frame& outer, const Effects& effects, Frame& in
 }
 
 void Lowerer::region(const StatementNode& statement, StatementId id) {
-    found_region_ = true;
+    ++guarded_uses_;
     report(Severity::note, "HF110", program_.expressions[statement.value].span,
            "this loop runs a different number of steps from point to point", "depends on the point",
            "the model works, but regions of space cannot be skipped, so meshing costs the cube of the "

@@ -165,7 +165,9 @@ class Lowerer {
         std::vector<NodeId> arguments;
         NodeId result;
         Items attributes;
-        NodeId newest;  ///< largest node number among result and attributes
+        NodeId newest;  ///< largest node number among result, attributes and guard
+        /// Guard of the regions that the call made: the call stands for later ones under the same guard only.
+        NodeId guard;
     };
 
     const Program& program_;
@@ -191,7 +193,7 @@ class Lowerer {
     std::set<std::pair<std::string, std::uint32_t>> reported_;
     std::int64_t steps_ = 0;
     std::size_t operations_ = 0;
-    bool found_region_ = false;
+    std::int64_t guarded_uses_ = 0;  ///< regions made in the model's graph, and uses of calls that made some
     bool stopped_ = false;
 };
 

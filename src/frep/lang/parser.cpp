@@ -146,6 +146,7 @@ bool Parser::enter(Span where) {
                       {fmt::format("this is nested more than {} levels deep", nesting_limit),
                        {},
                        "give parts of it to variables, or to objects of their own"});
+        advance();  // to the end: nothing more is read
         return false;
     }
     ++depth_;
