@@ -29,8 +29,8 @@ bool Lowerer::step(std::int64_t count) {
     if (graph().over_limit())
         stop("HF101", fmt::format("the model needs more than {} operations", Graph::node_limit),
              "make loops shorter, or let them depend on the point so that they stay loops");
-    else if (steps_ > lowering_limit)
-        stop("HF102", fmt::format("reading the model takes more than {} steps", lowering_limit),
+    else if (steps_ > options_.step_limit)
+        stop("HF102", fmt::format("reading the model takes more than {} steps", options_.step_limit),
              "make loops shorter and calls fewer");
     return !stopped_;
 }

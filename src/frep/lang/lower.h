@@ -14,6 +14,7 @@
 #include "frep/base/diagnostic.h"
 #include "frep/field/field.h"
 #include "frep/lang/ast.h"
+#include "frep/lang/limits.h"
 
 namespace frep::lang {
 
@@ -21,6 +22,7 @@ struct LowerOptions {
     std::vector<double> parameters;  ///< values of a[1], a[2], ...; missing ones are 0
     /// Content of a file named relative to the model's folder, for library functions that read one.
     std::function<Result<std::string>(std::string_view)> read_file;
+    std::int64_t step_limit = lowering_limit;  ///< steps of the lowering before it gives up (HF102)
 };
 
 struct Lowered {

@@ -56,7 +56,9 @@ std::optional<lang::Lowered> Model::lower(std::size_t object, const std::vector<
         diagnostics.append(diagnostics_);
         return std::nullopt;
     }
-    return lang::lower(*program_, object, {complete_parameters(object, parameters), read_file_}, diagnostics);
+    const lang::LowerOptions options{.parameters = complete_parameters(object, parameters),
+                                     .read_file = read_file_};
+    return lang::lower(*program_, object, options, diagnostics);
 }
 
 Result<Field> Model::field(std::string_view name, std::vector<double> parameters) const {
