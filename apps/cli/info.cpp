@@ -189,8 +189,9 @@ std::string object_text(const Model& model, const ObjectFacts& facts) {
                                   facts.is_default ? " (default)" : "");
     std::string names;
     for (int i = 0; i < object.coordinates(); ++i)
-        names += (i > 0 ? " " : "") + coordinate_name(static_cast<std::size_t>(i));
-    out += fmt::format("  dimension   {}{}\n", object.coordinates(), names.empty() ? "" : ": " + names);
+        names += fmt::format("{}{}", i > 0 ? " " : "", coordinate_name(static_cast<std::size_t>(i)));
+    out += fmt::format("  dimension   {}{}\n", object.coordinates(),
+                       names.empty() ? "" : fmt::format(": {}", names));
     if (object.declares_attributes) out += fmt::format("  attributes  {}\n", object.attributes());
     out += fmt::format("  parameters  {}\n", object.parameters());
     for (int i = 1; i <= object.parameters(); ++i) out += parameter_text(model, facts, i);

@@ -57,9 +57,6 @@ class MeshRun {
         if (!evaluator) return fail(evaluator.error());
         auto sampled = make_sampled_field(std::move(*evaluator), prepared_.map, plan_.iso);
         if (!sampled) return fail(sampled.error());
-        if (prepared_.lowered.has_regions)
-            print_note(
-                "the model has loops that depend on the point: nothing is pruned, the cost grows with N^3");
         if (const int code = choose_bounds(**sampled)) return code;
         const auto result = contour(**sampled);
         if (!result) return fail(result.error());
@@ -96,8 +93,8 @@ class MeshRun {
     void warn(const ContourResult& result) const {
         if (result.mesh.triangles.empty()) print_warning("the mesh is empty");
         if (const std::string sides = side_list(result.touches); !sides.empty())
-            print_warning(fmt::format("the surface touches the box at {}: the mesh is {} there", sides,
-                                      plan_.contour.cap ? "capped" : "open (--cap closes it)"));
+            print_warning(fmt::format("the surface touches the box at {}: the mesh is {}", sides,
+                                      plan_.contour.cap ? "capped there" : "open there (--cap closes it)"));
         if (result.undefined_points == 0 || !result.first_undefined) return;
         const Vec3 p = *result.first_undefined;
         const double axes[3] = {p.x, p.y, p.z};

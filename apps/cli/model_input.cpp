@@ -102,7 +102,7 @@ std::optional<std::size_t> choose_object(const Model& model, std::string_view na
         std::string names;
         for (const lang::Object& object : model.program().objects) {
             if (names.size() > 200) break;
-            names += (names.empty() ? "" : ", ") + object.written_name;
+            names += fmt::format("{}{}", names.empty() ? "" : ", ", object.written_name);
         }
         print_help_line("it has: " + names);
     }
@@ -153,7 +153,7 @@ std::optional<PreparedModel> prepare_model(const ModelOptions& options, int& cod
 
 std::string coordinate_name(std::size_t index) {
     static constexpr std::string_view names = "xyzt";
-    return index < names.size() ? std::string(1, names[index]) : "x" + std::to_string(index + 1);
+    return index < names.size() ? std::string(1, names[index]) : fmt::format("x{}", index + 1);
 }
 
 namespace {
@@ -174,7 +174,7 @@ Status freeze(std::string_view piece, AxisMap& map) {
     const auto value = parse_number(piece.substr(equals + 1));
     if (!value) return value.error();
     for (std::size_t i = 0; i < map.coordinates.size(); ++i) {
-        if (name != coordinate_name(i) && name != "x" + std::to_string(i + 1)) continue;
+        if (name != coordinate_name(i) && name != fmt::format("x{}", i + 1)) continue;
         map.coordinates[i] = {.axis = -1, .value = *value};
         return {};
     }
