@@ -63,6 +63,7 @@ NodeId Lowerer::library_call(const ExpressionNode& node) {
             report(Severity::warning, "HF105", node.span, message, "in this call",
                    fmt::format("the value is then {:.0f}, as in the old tools", shapes::error_value));
         };
+        build.decides = [&](Expression value) { known(value.id()); };
         const std::size_t before = graph().size();
         result = function.invoke(build, values).id();
         step(static_cast<std::int64_t>(graph().size() - before));

@@ -114,8 +114,9 @@ inline bool sizes_are(std::initializer_list<std::pair<Array, std::size_t>> array
 /// `value` where `bad` is false, error_value where it is true; a known truth is decided (and warned of) now.
 Expression guarded(Build& build, Expression bad, const std::string& message, Expression value);
 
-/// The number of an expression that is one number for every point: with the present parameters.
-std::optional<double> known(Expression value);
+/// The number of an expression that is one number for every point: with the present parameters, which become
+/// structural.
+std::optional<double> known(Build& build, Expression value);
 
 /// An op of kind block on leading arguments and data items.
 Expression block(Build& build, Op op, std::initializer_list<Expression> lead,

@@ -14,8 +14,8 @@ constexpr double padding_value = -15.0;
 constexpr std::size_t padding_layers = 3;
 
 /// A whole number in 1..limit that is the same for every point, rounded as the language rounds indexes.
-std::optional<std::size_t> count_of(Expression value, std::size_t limit) {
-    const auto number = known(value);
+std::optional<std::size_t> count_of(Build& build, Expression value, std::size_t limit) {
+    const auto number = known(build, value);
     if (!number || !(*number >= 0.5) || !(*number < static_cast<double>(limit) + 0.5)) return std::nullopt;
     return static_cast<std::size_t>(*number + 0.5);
 }
@@ -30,8 +30,9 @@ Expression box_solid(Array x, const std::array<Expression, 3>& low, const std::a
 struct Net {
     std::size_t l, m, n;
 };
-std::optional<Net> net_of(Expression l, Expression m, Expression n, Array values) {
-    const auto a = count_of(l, largest_net), b = count_of(m, largest_net), c = count_of(n, largest_net);
+std::optional<Net> net_of(Build& build, Expression l, Expression m, Expression n, Array values) {
+    const auto a = count_of(build, l, largest_net), b = count_of(build, m, largest_net),
+               c = count_of(build, n, largest_net);
     if (!a || !b || !c || values.size() != *a * *b * *c) return std::nullopt;
     return Net{*a, *b, *c};
 }
@@ -83,7 +84,7 @@ Expression voxels(Build& build, Array x, std::string_view file, std::array<std::
 
 Expression bezier_volume(Build& build, Array x, Expression l, Expression m, Expression n, Array box,
                          Array values) {
-    const auto net = net_of(l, m, n, values);
+    const auto net = net_of(build, l, m, n, values);
     if (!net || !sizes_are({{x, 3}, {box, 6}})) return build.error(needs_net);
     std::array<Expression, 3> at;
     for (std::size_t i = 0; i < 3; ++i) at[i] = (x[i] - box[i]) / (box[i + 3] - box[i]);
@@ -94,7 +95,7 @@ Expression bezier_volume(Build& build, Array x, Expression l, Expression m, Expr
 
 Expression bspline_volume(Build& build, Array x, Expression l, Expression m, Expression n, Array box,
                           Array values) {
-    const auto net = net_of(l, m, n, values);
+    const auto net = net_of(build, l, m, n, values);
     if (!net || net->l < 2 || net->m < 2 || net->n < 2 || !sizes_are({{x, 3}, {box, 6}}))
         return build.error(needs_net);
     const std::size_t count[3] = {net->l, net->n, net->m};  // x with l, y with n, z with m
@@ -121,7 +122,7 @@ Expression voxels_old(Build& build, Array x, std::string_view file, Expression l
 Expression voxels_sized(Build& build, Array x, std::string_view file, Expression nx, Expression ny,
                         Expression nz, Expression level) {
     constexpr std::size_t most = 100'000;
-    const auto a = count_of(nx, most), b = count_of(ny, most), c = count_of(nz, most);
+    const auto a = count_of(build, nx, most), b = count_of(build, ny, most), c = count_of(build, nz, most);
     if (!a || !b || !c || *a < 2 || *b < 2 || *c < 2)
         return build.error("nx, ny, nz must be known whole numbers above 1");
     return voxels(build, x, file, {*a, *b, *c}, level);

@@ -28,7 +28,11 @@ Expression guarded(Build& build, Expression bad, const std::string& message, Exp
     return select(bad, build.constant(error_value), value);
 }
 
-std::optional<double> known(Expression value) { return value.graph().bound_value(value.id()); }
+std::optional<double> known(Build& build, Expression value) {
+    const auto number = build.graph.bound_value(value.id());
+    if (number && build.decides) build.decides(value);
+    return number;
+}
 
 Expression block(Build& build, Op op, std::initializer_list<Expression> lead,
                  std::span<const Expression> data) {

@@ -30,6 +30,8 @@ struct Build {
     std::function<void(const std::string&)> warn;
     /// The outside world: content of a file named relative to the model's folder. Empty where there is none.
     std::function<Result<std::string>(std::string_view)> read_file;
+    /// Told of every expression whose present number decides the shape of the graph (a size, a count).
+    std::function<void(Expression)> decides = {};
 
     Expression constant(double value) const { return {graph, graph.constant(value)}; }
     Expression error(const std::string& message) const {
