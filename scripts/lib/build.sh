@@ -109,16 +109,15 @@ check() {
     fi
 }
 
-# run_fuzzer PROGRAM SECONDS: runs a libFuzzer program on its seeds in fuzz/seeds/NAME (if any); what it finds
+# run_fuzzer PROGRAM SECONDS: runs the fuzz program fuzz_NAME on its seeds in fuzz/corpus/NAME; what it finds
 # goes to out/fuzz/.
 run_fuzzer() {
-    local name folder seeds=()
+    local name folder
     name=$(basename "$1")
     folder=$root/out/fuzz/$name
     mkdir -p "$folder/corpus"
-    if [[ -d $root/fuzz/seeds/$name ]]; then seeds=("$root/fuzz/seeds/$name"); fi
-    "$1" -max_total_time="$2" -timeout=20 -rss_limit_mb=4096 -artifact_prefix="$folder/" \
-        -print_final_stats=1 "$folder/corpus" "${seeds[@]}" >"$folder/log" 2>&1 ||
+    "$1" -max_total_time="$2" -timeout=20 -rss_limit_mb=4096 -print_final_stats=1 -artifact_prefix="$folder/" \
+        -dict="$root/fuzz/hyperfun.dict" "$folder/corpus" "$root/fuzz/corpus/${name#fuzz_}" >"$folder/log" 2>&1 ||
         { tail -n 40 "$folder/log" >&2; return 1; }
     grep -a 'stat::number_of_executed_units' "$folder/log" || true
 }
