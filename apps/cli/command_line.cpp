@@ -32,6 +32,18 @@ class ExamplesFirst : public CLI::Formatter {
     std::string examples_, usage_;
 };
 
+/// CLI11's message, in plainer words where it speaks of counts.
+std::string message_of(const CLI::ParseError& error) {
+    const std::string text = error.what();
+    const std::size_t colon = text.find(": ");
+    if (colon == std::string::npos) return text;
+    if (text.find("At Most 1", colon) != std::string::npos)
+        return text.substr(0, colon) + ": given more than once";
+    if (text.find("required", colon) != std::string::npos)
+        return text.substr(0, colon) + ": a value is missing";
+    return text;
+}
+
 }  // namespace
 
 struct CommandLine::Parser {
@@ -121,6 +133,7 @@ std::optional<int> CommandLine::apply_common() {
         const auto bytes = parse_size(*common_.memory_limit);
         if (!bytes) return usage_error("--memory-limit: " + bytes.error().message);
         budget.memory = *bytes;
+        memory_bytes_ = *bytes;
     }
     set_budget(budget);
     return std::nullopt;
@@ -133,7 +146,7 @@ std::optional<int> CommandLine::parse(Arguments arguments) {
     } catch (const CLI::CallForHelp&) {
         return print_result(parser_->app.help());
     } catch (const CLI::ParseError& error) {
-        print_error(error.what());
+        print_error(message_of(error));
         print_help_line(fmt::format("`frep {} --help` shows how it is used", parser_->verb));
         return exit_usage;
     }

@@ -42,6 +42,9 @@ class CommandLine {
     /// that: after --help, or an error, which is then printed.
     std::optional<int> parse(Arguments arguments);
 
+    /// The value of --memory-limit in bytes, after parse().
+    std::optional<std::size_t> memory_limit() const { return memory_bytes_; }
+
   private:
     std::optional<int> refuse_extras();
     std::optional<int> apply_common();
@@ -49,6 +52,7 @@ class CommandLine {
     struct Parser;
     std::unique_ptr<Parser> parser_;
     CommonOptions common_;
+    std::optional<std::size_t> memory_bytes_;
 };
 
 }  // namespace frep::cli

@@ -181,6 +181,7 @@ int run_mesh(Arguments arguments) {
     if (const auto code = line.parse(arguments)) return *code;
     auto plan = plan_mesh(options);
     if (!plan) return fail(plan.error());
+    if (const auto bytes = line.memory_limit()) plan->contour.memory_limit = *bytes;
     int code = exit_ok;
     const auto prepared = prepare_model(options.model, code);
     if (!prepared) return code;

@@ -74,7 +74,15 @@ TEST_CASE("the time limit") {
     CHECK(entries(folder.path()) == 1);
 }
 
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#define FREP_SANITIZED  // sanitizers reserve terabytes of address space
+#elif defined(__has_feature)
+#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
+#define FREP_SANITIZED
+#endif
+#endif
+
+#ifndef FREP_SANITIZED
 TEST_CASE("the memory limit") {
     const ScratchFolder folder;
     write_bytes(folder.path() / "m.hf", sphere);
