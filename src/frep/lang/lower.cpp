@@ -151,7 +151,7 @@ std::optional<Lowered> Lowerer::run(std::size_t index) {
 
 std::optional<Lowered> lower(const Program& program, std::size_t object, const LowerOptions& options,
                              Diagnostics& diagnostics) {
-    constexpr std::size_t stack_bytes = 512u << 20;  // untouched pages cost nothing
+    constexpr std::size_t stack_bytes = 64u << 20;  // depth_limit levels of at most 8 KiB each
     std::optional<Lowered> out;
     run_on_stack(stack_bytes, [&] { out = Lowerer(program, options, diagnostics).run(object); });
     return out;

@@ -39,7 +39,7 @@ NodeId Lowerer::evaluate(ExpressionId id) {
     const ExpressionNode& node = program_.expressions[id];
     if (!step()) return graph().constant(0);
     ++operations_;
-    if (++depth_ > 20'000)
+    if (++depth_ > depth_limit)
         stop("HF103", "the model is nested too deeply", "use fewer levels of calls and parentheses");
     const Span outer = graph().current_origin();
     graph().set_origin(node.span);
