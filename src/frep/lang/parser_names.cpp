@@ -1,5 +1,6 @@
 // Names in expressions: variables, items of arrays, and what is wrong with a name. hyperfun.md a.3. Tested by
 // tests/unit/lang/parser_test.cpp and tests/lang/name_*.hf, index_*.hf.
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -51,7 +52,8 @@ bool Parser::check_new_name(const Token& name, const std::string& lowered, std::
     };
     if (is_reserved_word(lowered)) return refuse("is a word of the language");
     if (find_builtin(lowered)) return refuse("is a built-in function");
-    if (!rows.empty() && rows.front().reserved) return refuse("is a function of the library");
+    const bool reserved = std::any_of(rows.begin(), rows.end(), [](const auto& row) { return row.reserved; });
+    if (reserved) return refuse("is a function of the library");
     if (!is_object && lowered == scope_.name) return refuse("is the object's own name");
     const bool shadows_object = !is_object && find_object(lowered);
     if (shadows_object || !rows.empty())

@@ -2,6 +2,8 @@
 // hostile_test.cpp.
 #include "frep/lang/parser.h"
 
+#include <algorithm>
+
 #include <doctest/doctest.h>
 
 #include "lang_test.h"
@@ -182,4 +184,20 @@ TEST_CASE("an object has at most sixteen coordinates, a thousand parameters and 
     CHECK(findings("m(x[17], a[1]) { m = 1; }") == std::vector<std::string>{"error HF017 at 1:5"});
     CHECK(findings("m(x[1], a[1], s[1001]) { m = 1; }") == std::vector<std::string>{"error HF017 at 1:17"});
     CHECK(findings("m(x[1e400], a[1]) { m = 1; }") == std::vector<std::string>{"error HF017 at 1:5"});
+}
+
+TEST_CASE("names of newer library functions may be used by the model, with a warning") {
+    const auto rows = frep::shapes::library();
+    const auto row = std::find_if(rows.begin(), rows.end(), [](const auto& one) { return !one.reserved; });
+    REQUIRE(row != rows.end());
+    const std::string name(row->name);
+    const std::string object = name + "(x[3], a[2]) { " + name + " = 1; }\n";
+    CHECK(findings(object) == std::vector<std::string>{"warning HF057 at 1:1"});
+    CHECK(findings(model(name + " = 1; my_model = " + name + ";")) ==
+          std::vector<std::string>{"warning HF057 at 3:1"});
+    CHECK(findings(model("array " + name + "[2]; my_model = " + name + "[1];")) ==
+          std::vector<std::string>{"warning HF057 at 3:7"});
+    const Parse call = parse_text(object + model("my_model = " + name + "(x, a);"));
+    CHECK(!call.diagnostics.has_errors());
+    CHECK(call.program.expressions.back().kind == ExpressionKind::object_call);
 }
