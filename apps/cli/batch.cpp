@@ -3,7 +3,6 @@
 
 #include <cmath>
 #include <exception>
-#include <thread>
 
 #include "values.h"
 
@@ -129,12 +128,11 @@ void BatchEvaluator::run_slice(Worker& worker, const Columns& columns, std::size
 BatchResult BatchEvaluator::run(const Columns& columns, std::size_t count) {
     const std::size_t useful = (count + smallest_slice - 1) / smallest_slice;
     const std::size_t slices = std::max<std::size_t>(1, std::min(workers_.size(), useful));
-    std::vector<std::thread> threads;
-    for (std::size_t s = 1; s < slices; ++s)
-        threads.emplace_back(
-            [&, s] { run_slice(*workers_[s], columns, s * count / slices, (s + 1) * count / slices); });
-    run_slice(*workers_[0], columns, 0, count / slices);
-    for (std::thread& thread : threads) thread.join();
+    Job job;
+    job.threads = static_cast<int>(slices);
+    parallel_for(job, slices, [&](std::size_t i) {
+        run_slice(*workers_[i], columns, i * count / slices, (i + 1) * count / slices);
+    });
     BatchResult all;
     for (std::size_t s = 0; s < slices; ++s) {
         Worker& worker = *workers_[s];

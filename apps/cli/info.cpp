@@ -36,18 +36,6 @@ std::string_view word(shapes::ArgumentKind kind) {
     return "number";
 }
 
-/// "hfSphere(x, center, R)"; arrays that the function changes are marked by &.
-std::string signature(const shapes::LibraryFunction& function) {
-    std::string out(function.name);
-    out += "(";
-    for (const shapes::ArgumentInfo& argument : function.arguments) {
-        if (out.back() != '(') out += ", ";
-        if (argument.kind == shapes::ArgumentKind::array_in_out) out += "&";
-        out += argument.name;
-    }
-    return out + ")";
-}
-
 Json library_json() {
     Json list = Json::array();
     for (const shapes::LibraryFunction& f : shapes::library()) {
@@ -73,7 +61,7 @@ std::string library_text() {
             out += fmt::format("{}{}\n", out.empty() ? "" : "\n", f.group);
             group = f.group;
         }
-        out += fmt::format("  {}\n      {}\n", signature(f), f.doc);
+        out += fmt::format("  {}\n      {}\n", shapes::signature(f), f.doc);
         if (!f.note.empty()) out += fmt::format("      note: {}\n", f.note);
     }
     return out;

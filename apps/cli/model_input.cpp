@@ -16,11 +16,9 @@ namespace frep::cli {
 
 namespace {
 
-constexpr std::size_t source_limit = std::size_t{16} << 20;  // bytes of a model, docs/language.md
-
 Result<std::string> read_source(const std::string& path) {
-    if (path == "-" || is_pipe(path)) return read_stream(path, source_limit);
-    return read_file(path, source_limit);
+    if (path == "-" || is_pipe(path)) return read_stream(path, lang::source_limit);
+    return read_file(path, lang::source_limit);
 }
 
 bool has_extension(const std::string& path, std::string_view extension) {

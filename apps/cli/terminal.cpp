@@ -117,10 +117,7 @@ void print_uncoded(const Diagnostic& diagnostic, const Source& source) {
     list.add(diagnostic);
     RenderOptions options;
     options.color = voice().color;
-    std::string text = render(list, source, options);
-    if (const std::size_t brackets = text.find("[]"); brackets != std::string::npos && brackets < 16)
-        text.erase(brackets, 2);
-    write_stderr(text);
+    write_stderr(render(list, source, options));
 }
 
 Status write_stdout(std::string_view bytes) {

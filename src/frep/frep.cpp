@@ -2,8 +2,6 @@
 
 #include <filesystem>
 
-#include "frep/lang/limits.h"
-
 namespace frep {
 
 std::string_view version() { return FREP_VERSION; }

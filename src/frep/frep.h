@@ -12,6 +12,7 @@
 
 #include "frep/base/diagnostic.h"
 #include "frep/base/job.h"
+#include "frep/base/parallel.h"
 #include "frep/base/result.h"
 #include "frep/contour/bounds.h"
 #include "frep/contour/contour.h"
@@ -24,8 +25,10 @@
 #include "frep/io/file.h"
 #include "frep/io/mesh_format.h"
 #include "frep/lang/explain.h"
+#include "frep/lang/limits.h"
 #include "frep/lang/model.h"
 #include "frep/shapes/library.h"
+#include "frep/shapes/library_page.h"
 
 namespace frep {
 

@@ -40,13 +40,15 @@ std::string_view severity_color(Severity severity) {
     return severity == Severity::error ? "1;31" : severity == Severity::warning ? "1;33" : "1;36";
 }
 
-/// The code points of a line, each already escaped for the terminal.
-std::vector<std::string> cells_of(std::string_view line) {
+/// Code points first..last-1 of a line, each escaped for the terminal; `total` receives the number of all.
+std::vector<std::string> cells_of(std::string_view line, std::size_t first, std::size_t last,
+                                  std::size_t& total) {
     std::vector<std::string> cells;
-    for (std::size_t i = 0; i < line.size();) {
+    total = 0;
+    for (std::size_t i = 0; i < line.size(); ++total) {
         std::size_t next = i + 1;
         while (next < line.size() && (static_cast<unsigned char>(line[next]) & 0xC0) == 0x80) ++next;
-        cells.push_back(escape_controls(line.substr(i, next - i)));
+        if (total >= first && total < last) cells.push_back(escape_controls(line.substr(i, next - i)));
         i = next;
     }
     return cells;
@@ -60,28 +62,26 @@ std::size_t printed_width(std::string_view cell) {
 void append_quote(std::string& out, std::string_view line, std::size_t first, std::size_t last,
                   std::string_view label, const std::string& gutter, const std::string& number,
                   std::size_t columns, Paint paint, Severity severity) {
-    const std::vector<std::string> cells = cells_of(line);
-    std::size_t begin = 0;
-    std::size_t end = cells.size();
-    if (end > columns) {
-        begin = first > columns / 2 ? first - columns / 2 : 0;
-        end = std::min(cells.size(), begin + columns);
-    }
+    std::size_t begin = first > columns / 2 ? first - columns / 2 : 0;
+    if (line.size() <= columns) begin = 0;
+    std::size_t total = 0;
+    const std::vector<std::string> cells = cells_of(line, begin, begin + columns, total);
+    const std::size_t end = begin + cells.size();
     std::string text = begin > 0 ? "..." : "";
     std::string marks(text.size(), ' ');
     for (std::size_t i = begin; i < end; ++i) {
-        text += cells[i];
-        marks.append(printed_width(cells[i]), i >= first && i < last ? '^' : ' ');
+        text += cells[i - begin];
+        marks.append(printed_width(cells[i - begin]), i >= first && i < last ? '^' : ' ');
     }
-    if (end < cells.size()) text += "...";
+    if (end < total) text += "...";
     while (!marks.empty() && marks.back() == ' ') marks.pop_back();
     if (marks.empty() || marks.back() != '^') {  // the place is at the end of the line or beyond
         std::size_t width = begin > 0 ? 3 : 0;
-        for (std::size_t i = begin; i < std::min(end, first); ++i) width += printed_width(cells[i]);
+        for (std::size_t i = begin; i < std::min(end, first); ++i) width += printed_width(cells[i - begin]);
         marks = std::string(width, ' ') + "^";
     }
-    if (!label.empty()) marks += " " + escape_controls(label);
-    out += fmt::format("{} {}\n", paint("1;34", gutter + " |"), "");
+    if (!label.empty()) marks += fmt::format(" {}", escape_controls(label));
+    out += fmt::format("{}\n", paint("1;34", gutter + " |"));
     out += fmt::format("{} {}\n", paint("1;34", number + " |"), text);
     out += fmt::format("{} {}\n", paint("1;34", gutter + " |"), paint(severity_color(severity), marks));
 }
@@ -93,7 +93,8 @@ void append_diagnostic(std::string& out, const Diagnostic& d, const Source& sour
     const LineColumn end = source.locate(std::max(d.span.end, d.span.begin));
     const std::string number = std::to_string(begin.line);
     const std::string gutter(number.size(), ' ');
-    const std::string title = fmt::format("{}[{}]", to_string(d.severity), d.code);
+    const std::string title = d.code.empty() ? std::string(to_string(d.severity))
+                                             : fmt::format("{}[{}]", to_string(d.severity), d.code);
     out += fmt::format("{}: {}\n", paint(severity_color(d.severity), title),
                        paint("1", escape_controls(d.message)));
     out += fmt::format("{}{} {}:{}:{}\n", gutter, paint("1;34", "-->"), escape_controls(source.name()),

@@ -89,9 +89,10 @@ NodeId Lowerer::read_item(const ExpressionNode& node) {
             const NodeId item = items[static_cast<std::size_t>(i) - 1];
             return item != unassigned ? item : unassigned_value(node.span, array.name);
         }
-        report(Severity::warning, "HF104", node.span,
-               fmt::format("index {} is out of range for `{}[{}]`", i, array.name, array.size),
-               "this item does not exist", fmt::format("indexes run from 1 to {}", array.size));
+        if (program_.expressions[node.operands[0]].kind != ExpressionKind::number)  // else the parser said so
+            report(Severity::warning, "HF104", node.span,
+                   fmt::format("index {} is out of range for `{}[{}]`", i, array.name, array.size),
+                   "this item does not exist", fmt::format("indexes run from 1 to {}", array.size));
         return graph().undefined();
     }
     if (!step(static_cast<std::int64_t>(items.size() / 8))) return index;

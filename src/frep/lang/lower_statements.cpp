@@ -77,9 +77,11 @@ void Lowerer::assign_item(const StatementNode& statement) {
     }
     const ArrayInfo& array = frame().object->arrays[statement.symbol];
     const bool certain = uncertain_ == 0 && !graph().depends_on_parameters(index);
-    report(certain ? Severity::error : Severity::warning, "HF104", statement.target_span,
-           fmt::format("index {} is out of range for `{}[{}]`", i, array.name, array.size),
-           "this item does not exist", fmt::format("indexes run from 1 to {}", array.size));
+    const bool said = program_.expressions[statement.index].kind == ExpressionKind::number;  // by the parser
+    if (certain || !said)
+        report(certain ? Severity::error : Severity::warning, "HF104", statement.target_span,
+               fmt::format("index {} is out of range for `{}[{}]`", i, array.name, array.size),
+               "this item does not exist", fmt::format("indexes run from 1 to {}", array.size));
     poison(items);
 }
 

@@ -185,7 +185,8 @@ Parsed Parser::item(const Token& name, const std::string& lowered) {
     return {add(std::move(node))};
 }
 
-/// An index written as a number is checked now. In a block, which may never be entered, it is only a warning.
+/// An index written as a number is checked now. Only a warning: the value is undefined, which matters where
+/// it is used.
 void Parser::check_index(std::uint32_t array, ExpressionId index) {
     const auto value = literal(index);
     if (!value || !scope_.sizes_known) return;
@@ -196,10 +197,7 @@ void Parser::check_index(std::uint32_t array, ExpressionId index) {
                             info_of.name.size() > 60 ? std::string("...") : info_of.name, info_of.size),
                 "out of range",
                 info_of.size == 0 ? "" : fmt::format("items are numbered 1 to {}", info_of.size)};
-    if (scope_.block_depth > 0)
-        report_.warning(Code::index_out_of_range, span_of(index), std::move(words));
-    else
-        report_.error(Code::index_out_of_range, span_of(index), std::move(words));
+    report_.warning(Code::index_out_of_range, span_of(index), std::move(words));
 }
 
 }  // namespace frep::lang
