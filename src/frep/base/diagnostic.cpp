@@ -54,9 +54,7 @@ std::vector<std::string> cells_of(std::string_view line, std::size_t first, std:
     return cells;
 }
 
-std::size_t printed_width(std::string_view cell) {
-    return cell.starts_with("\\x") && cell.size() > 1 ? cell.size() : 1;
-}
+std::size_t printed_width(std::string_view cell) { return cell.starts_with('\\') ? cell.size() : 1; }
 
 /// The source line and the line of carets under [first, last) (0-based code points), clipped to `columns`.
 void append_quote(std::string& out, std::string_view line, std::size_t first, std::size_t last,

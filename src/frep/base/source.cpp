@@ -26,6 +26,18 @@ std::size_t sequence_length(std::string_view s) {
     return overlong || surrogate || beyond ? 0 : length;
 }
 
+/// U+200E, U+200F, U+202A..U+202E, U+2066..U+2069: characters that change the direction of the text around
+/// them. Answers the last byte of the code point, or 0 for any other text.
+unsigned direction_control(std::string_view text) {
+    if (text.size() < 3 || !text.starts_with("\xE2")) return 0;
+    const auto second = static_cast<unsigned char>(text[1]);
+    const auto third = static_cast<unsigned char>(text[2]);
+    if (second == 0x80 && (third == 0x8E || third == 0x8F)) return third - 0x80u;
+    if (second == 0x80 && third >= 0xAA && third <= 0xAE) return third - 0x80u;
+    if (second == 0x81 && third >= 0xA6 && third <= 0xA9) return third - 0x80u + 0x40u;
+    return 0;
+}
+
 }  // namespace
 
 std::string to_valid_utf8(std::string_view bytes) {
@@ -47,7 +59,12 @@ std::string escape_controls(std::string_view text) {
         const auto byte = static_cast<unsigned char>(text[i]);
         // U+0080..U+009F are control characters too (C1); in UTF-8 they are C2 80 .. C2 9F.
         const bool c1 = byte == 0xC2 && i + 1 < text.size() && static_cast<unsigned char>(text[i + 1]) < 0xA0;
-        if (byte == '\t') {
+        if (const unsigned low = direction_control(text.substr(i))) {
+            out += "\\u20";
+            out += digits[low >> 4];
+            out += digits[low & 15];
+            i += 2;
+        } else if (byte == '\t') {
             out += ' ';
         } else if (byte < 0x20 || byte == 0x7F || c1) {
             const unsigned code = c1 ? static_cast<unsigned char>(text[++i]) : byte;

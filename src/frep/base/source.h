@@ -52,7 +52,8 @@ class Source {
 /// `bytes` with every ill-formed UTF-8 sequence replaced by U+FFFD.
 std::string to_valid_utf8(std::string_view bytes);
 
-/// `text` with control characters shown as \xNN (tab as one blank) so that a terminal is never sent one.
+/// `text` with control characters shown as \xNN (tab as one blank), and characters that turn the direction of
+/// text as \u20NN, so that a terminal is never sent one.
 std::string escape_controls(std::string_view text);
 
 }  // namespace frep

@@ -37,5 +37,8 @@ TEST_CASE("control characters are never sent raw") {
     CHECK(frep::escape_controls("a\tb\x7f") == "a b\\x7f");
     CHECK(frep::escape_controls("\xC2\x9B"
                                 "31m") == "\\x9b31m");  // C1 control sequence introducer
+    CHECK(frep::escape_controls("a\xE2\x80\xAE"
+                                "b\xE2\x81\xA6") == "a\\u202eb\\u2066");  // direction overrides
+    CHECK(frep::escape_controls("\xE2\x80\x93\xE2\x81\xAA") == "\xE2\x80\x93\xE2\x81\xAA");
     CHECK(frep::escape_controls("\xC2\xA0") == "\xC2\xA0");
 }
