@@ -115,15 +115,15 @@ math::Dual<T> lattice_noise(math::Dual<T> x, math::Dual<T> y, math::Dual<T> z) {
 inline Interval lattice_noise(Interval x, Interval y, Interval z) {
     const Interval at[3] = {x, y, z};
     const Interval bound = {-noise_detail::noise_bound, noise_detail::noise_bound};
+    if (any_empty(x, y, z)) return Interval::empty();
+    const bool undefined = any_flagged(x, y, z) || !within(math::max_finite, x, y, z);
     double first[3], cells = 1.0;
-    bool undefined = false;
     for (int i = 0; i < 3; ++i) {
-        if (at[i].is_empty()) return Interval::empty();
-        undefined = undefined || at[i].maybe_undefined || !(magnitude(at[i]) < math::infinity);
         first[i] = math::floor(at[i].lo);
         cells *= math::floor(at[i].hi) - first[i] + 1.0;
     }
-    if (!(cells <= 8.0) || undefined) return bound.flagged(undefined);
+    // beyond 2^40 a box has hardly any points inside a cell; beyond 2^53 the next cell has no number
+    if (!(cells <= 8.0) || !within(0x1p40, x, y, z)) return bound.flagged(undefined);
     Interval range = Interval::empty();
     for (double i = first[0]; i <= x.hi; i += 1.0)
         for (double j = first[1]; j <= y.hi; j += 1.0)
@@ -139,7 +139,7 @@ inline Interval lattice_noise(Interval x, Interval y, Interval z) {
                 const Interval value = noise_detail::cell_noise(cell, offset[0], offset[1], offset[2]);
                 range = range.is_empty() ? value : math::hull(range, value);
             }
-    return cut(Interval(range.lo, range.hi), bound.lo, bound.hi);
+    return cut(Interval(range.lo, range.hi), bound.lo, bound.hi).flagged(undefined);
 }
 
 /// Sum of |2 noise(f x) - 1|/f over f = freq, freq/2, ... while f >= 1; every finite freq ends the sum.
@@ -149,11 +149,13 @@ T turbulence(T x, T y, T z, T freq) {
     for (int octave = 0; octave <= 1024; ++octave) {
         const auto counts = math::less_equal(one<T>(), f);
         if (!can_hold(counts)) break;
-        const T term = math::abs(2.0 * lattice_noise(f * x, f * y, f * z) - 1.0) / f;
+        T divisor = f;  // only octaves with f >= 1 count
+        if constexpr (is_interval<T>) divisor = cut(f, 1.0, math::infinity);
+        const T term = math::abs(2.0 * lattice_noise(f * x, f * y, f * z) - 1.0) / divisor;
         sum += math::select(counts, term, zero<T>());
         f = f * 0.5;
     }
-    return math::select(math::is_nan(freq), freq, sum);
+    return defined_with(sum, x, y, z, freq);
 }
 
 }  // namespace frep::kernels

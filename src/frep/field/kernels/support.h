@@ -105,6 +105,22 @@ bool can_hold(M mask) {
     }
 }
 
+/// True where one of the operands is NaN.
+template <class T>
+auto any_nan(T a) {
+    return math::is_nan(a);
+}
+template <class T, class... Rest>
+auto any_nan(T a, Rest... rest) {
+    return math::either(math::is_nan(a), any_nan(rest...));
+}
+/// `value`, undefined where one of the operands is: an operation reads all its plain and leading operands,
+/// whether they count at this point or not (numerics.md, rule 5).
+template <class T, class... Operands>
+T defined_with(T value, Operands... operands) {
+    return math::select(any_nan(operands...), math::constant<T>(math::quiet_nan), value);
+}
+
 /// x^2 + y^2 + z^2.
 template <class T>
 T sum_of_squares(T x, T y, T z) {
@@ -151,11 +167,18 @@ math::Dual<T> dual_by_lane(F f, const std::array<math::Dual<T>, n>& arguments) {
 inline Interval stepped(double lo, double hi, int ulps, bool undefined = false) {
     return {math::step_down(lo, ulps), math::step_up(hi, ulps), undefined};
 }
+/// Bounds moved outward by a pad >= 0 each; a bound or pad that is no number gives no bound.
+inline Interval padded(double lo, double pad_lo, double hi, double pad_hi, bool undefined) {
+    const double low = pad_lo == 0.0 ? lo : math::next_down(lo - pad_lo);
+    const double high = pad_hi == 0.0 ? hi : math::next_up(hi + pad_hi);
+    return {low == low ? low : -math::infinity, high == high ? high : math::infinity, undefined};
+}
 /// `a` widened by `pad` >= 0 to both sides.
 inline Interval widened(Interval a, double pad) {
-    if (a.is_empty() || !(pad > 0.0)) return a;
-    return {math::next_down(a.lo - pad), math::next_up(a.hi + pad), a.maybe_undefined};
+    return a.is_empty() ? a : padded(a.lo, pad, a.hi, pad, a.maybe_undefined);
 }
+/// Any value, or none.
+inline Interval unknown() { return {-math::infinity, math::infinity, true}; }
 /// `a` cut to [lo, hi]; the flag is that of `a`. Bounds that miss `a` (rounding) leave it.
 inline Interval cut(Interval a, double lo, double hi) {
     if (a.is_empty()) return a;
@@ -168,6 +191,21 @@ inline double magnitude(Interval a) {
     return low > high ? low : high;
 }
 inline bool is_point(Interval a) { return a.lo == a.hi; }
+/// The smaller magnitude; 0 where the signs differ.
+inline double least_magnitude(Interval a) { return a.lo > 0.0 ? a.lo : a.hi < 0.0 ? -a.hi : 0.0; }
+template <class... I>
+bool any_empty(I... a) {
+    return (a.is_empty() || ...);
+}
+template <class... I>
+bool any_flagged(I... a) {
+    return (a.maybe_undefined || ...);
+}
+/// True if no operand exceeds the limit (an empty one does).
+template <class... I>
+bool within(double limit, I... a) {
+    return ((magnitude(a) <= limit) && ...);
+}
 
 /// Cuts `whole` by the mean value form: the range at the centre plus slopes times deviations.
 template <class Slope>
@@ -184,7 +222,9 @@ inline double centre_of(Interval a) { return 0.5 * a.lo + 0.5 * a.hi; }
 template <class F>
 Interval decreasing(F f, Interval q) {
     if (q.is_empty() || is_point(q)) return f(q);
-    return {f(Interval(q.hi)).lo, f(Interval(q.lo)).hi, q.maybe_undefined};
+    const Interval low = f(Interval(q.hi)), high = f(Interval(q.lo));
+    if (any_empty(low, high)) return unknown();
+    return {low.lo, high.hi, any_flagged(q, low, high)};
 }
 
 }  // namespace frep::kernels
