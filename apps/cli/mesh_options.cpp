@@ -29,9 +29,7 @@ Result<MeshFormat> format_of(const MeshOptions& options) {
     if (*options.output == "-") return MeshFormat::stl;
     const auto format = mesh_format_from_path(*options.output);
     if (format) return *format;
-    std::string extension = std::filesystem::path(*options.output).extension().string();
-    for (char& c : extension)
-        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+    const std::string extension = lower_case(std::filesystem::path(*options.output).extension().string());
     if (extension.size() > 1 && (std::string(later_formats) + " ").find(extension + " ") != std::string::npos)
         return usage(fmt::format("{} files come with a later version; this one writes .stl, .ply and .off",
                                  extension));

@@ -22,10 +22,7 @@ Result<std::string> read_source(const std::string& path) {
 }
 
 bool has_extension(const std::string& path, std::string_view extension) {
-    std::string found = std::filesystem::path(path).extension().string();
-    for (char& c : found)
-        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-    return found == extension;
+    return lower_case(std::filesystem::path(path).extension().string()) == extension;
 }
 
 /// The engine of that name; an unknown one is printed.
@@ -156,19 +153,12 @@ std::string coordinate_name(std::size_t index) {
 
 namespace {
 
-std::string folded(std::string_view text) {
-    std::string out(text);
-    for (char& c : out)
-        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-    return out;
-}
-
 Error map_error(std::string message) { return {ErrorKind::invalid_argument, std::move(message)}; }
 
 /// Freezes the coordinate that `piece` (NAME=V) names.
 Status freeze(std::string_view piece, AxisMap& map) {
     const std::size_t equals = piece.find('=');
-    const std::string name = folded(piece.substr(0, equals));
+    const std::string name = lower_case(piece.substr(0, equals));
     const auto value = parse_number(piece.substr(equals + 1));
     if (!value) return value.error();
     for (std::size_t i = 0; i < map.coordinates.size(); ++i) {
@@ -197,7 +187,7 @@ Result<AxisMap> parse_map(std::string_view text, std::size_t count) {
         return map_error(
             fmt::format("`{}` has {} entries, the object has {} coordinates", text, pieces.size(), count));
     for (std::size_t i = 0; i < count; ++i) {
-        const std::string entry = folded(pieces[i]);
+        const std::string entry = lower_case(pieces[i]);
         if (entry == "x" || entry == "y" || entry == "z") {
             map.coordinates[i] = {.axis = entry[0] - 'x', .value = 0};
         } else {

@@ -12,11 +12,7 @@ namespace frep::cli {
 
 namespace {
 
-bool same_name(std::string_view a, std::string_view b) {
-    const auto fold = [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; };
-    return std::equal(a.begin(), a.end(), b.begin(), b.end(),
-                      [&](char x, char y) { return fold(x) == fold(y); });
-}
+bool same_name(std::string_view a, std::string_view b) { return lower_case(a) == lower_case(b); }
 
 /// 3 for `a[3]` and `a3`; nothing for other texts.
 std::optional<std::int64_t> index_of(std::string_view name) {

@@ -17,13 +17,6 @@ Error wrong(std::string_view text, std::string_view expected) {
     return {ErrorKind::invalid_argument, fmt::format("`{}` is not {}", text, expected)};
 }
 
-std::string lower_case(std::string_view text) {
-    std::string out(text);
-    for (char& c : out)
-        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-    return out;
-}
-
 struct Unit {
     std::string_view name;
     double factor;

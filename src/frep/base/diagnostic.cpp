@@ -7,9 +7,7 @@
 namespace frep {
 namespace {
 
-char fold(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
-
-/// Optimal string alignment distance, case folded; stops counting above `limit`.
+/// Optimal string alignment distance; stops counting above `limit`.
 std::size_t edit_distance(std::string_view a, std::string_view b, std::size_t limit) {
     if (a.size() > b.size() + limit || b.size() > a.size() + limit) return limit + 1;
     std::vector<std::size_t> before(b.size() + 1), previous(b.size() + 1), current(b.size() + 1);
@@ -17,10 +15,9 @@ std::size_t edit_distance(std::string_view a, std::string_view b, std::size_t li
     for (std::size_t i = 1; i <= a.size(); ++i) {
         current[0] = i;
         for (std::size_t j = 1; j <= b.size(); ++j) {
-            const bool same = fold(a[i - 1]) == fold(b[j - 1]);
+            const bool same = a[i - 1] == b[j - 1];
             current[j] = std::min({previous[j] + 1, current[j - 1] + 1, previous[j - 1] + (same ? 0 : 1)});
-            const bool swapped =
-                i > 1 && j > 1 && fold(a[i - 1]) == fold(b[j - 2]) && fold(a[i - 2]) == fold(b[j - 1]);
+            const bool swapped = i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1];
             if (swapped) current[j] = std::min(current[j], before[j - 2] + 1);
         }
         std::swap(before, previous);
@@ -143,11 +140,12 @@ std::string render(const Diagnostics& diagnostics, const Source& source, const R
 
 std::string_view nearest_name(std::string_view name, const std::vector<std::string_view>& candidates) {
     if (name.size() > 128) return {};
+    const std::string wanted = lower_case(name);
     const std::size_t limit = std::max<std::size_t>(1, name.size() / 3);
     std::string_view best;
     std::size_t best_distance = limit + 1;
     for (std::string_view candidate : candidates) {
-        const std::size_t distance = edit_distance(name, candidate, limit);
+        const std::size_t distance = edit_distance(wanted, lower_case(candidate), limit);
         if (distance < best_distance) {
             best = candidate;
             best_distance = distance;

@@ -51,6 +51,13 @@ std::string to_valid_utf8(std::string_view bytes) {
     return out;
 }
 
+std::string lower_case(std::string_view text) {
+    std::string out(text);
+    for (char& c : out)
+        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+    return out;
+}
+
 std::string escape_controls(std::string_view text) {
     static constexpr char digits[] = "0123456789abcdef";
     std::string out;

@@ -52,6 +52,10 @@ class Source {
 /// `bytes` with every ill-formed UTF-8 sequence replaced by U+FFFD.
 std::string to_valid_utf8(std::string_view bytes);
 
+/// `text` with ASCII letters in lower case; names of models and options compare so (docs/numerics.md, rule
+/// 12).
+std::string lower_case(std::string_view text);
+
 /// `text` with control characters shown as \xNN (tab as one blank), and characters that turn the direction of
 /// text as \u20NN, so that a terminal is never sent one.
 std::string escape_controls(std::string_view text);

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <limits>
 
+#include "frep/base/source.h"
 #include "frep/io/encode.h"
 
 namespace frep {
@@ -169,8 +170,7 @@ Result<MeshFormat> mesh_format_from_path(std::string_view path) {
     const std::size_t slash = path.find_last_of('/');
     const std::string_view name = slash == std::string_view::npos ? path : path.substr(slash + 1);
     const std::size_t dot = name.find_last_of('.');
-    std::string extension(dot == std::string_view::npos ? std::string_view() : name.substr(dot));
-    for (char& c : extension) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+    const std::string extension = lower_case(dot == std::string_view::npos ? "" : name.substr(dot));
     for (const Extension& known : extensions) {
         if (extension == known.name) return known.format;
     }

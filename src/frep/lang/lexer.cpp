@@ -172,13 +172,6 @@ bool is_reserved_word(std::string_view lower) {
 
 std::string_view to_string(TokenKind kind) { return kind_names[static_cast<std::size_t>(kind)]; }
 
-std::string lower_case(std::string_view text) {
-    std::string lower(text);
-    for (char& c : lower)
-        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-    return lower;
-}
-
 Lexer::Lexer(const Source& source, Reporter* reporter, std::uint32_t offset)
     : text_(source.text()), reporter_(reporter), position_(offset) {}
 

@@ -105,7 +105,4 @@ bool is_reserved_word(std::string_view lower);
 /// A kind as people read it: "`;`", "a number", "`endif`".
 std::string_view to_string(TokenKind kind);
 
-/// `text` with ASCII capitals folded.
-std::string lower_case(std::string_view text);
-
 }  // namespace frep::lang

@@ -7,17 +7,6 @@
 #include "frep/lang/parser.h"
 
 namespace frep {
-namespace {
-
-std::string folded(std::string_view name) {
-    std::string out(name);
-    for (char& c : out)
-        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-    return out;
-}
-
-}  // namespace
-
 Model::Model(Source source, ReadFile read_file)
     : source_(std::move(source)), read_file_(std::move(read_file)) {
     program_ = std::make_shared<const lang::Program>(lang::parse(source_, diagnostics_));
@@ -25,7 +14,7 @@ Model::Model(Source source, ReadFile read_file)
 
 std::optional<std::size_t> Model::find_object(std::string_view name) const {
     const auto& objects = program_->objects;
-    const std::string wanted = name.empty() ? "my_model" : folded(name);
+    const std::string wanted = name.empty() ? "my_model" : lower_case(name);
     const auto found =
         std::find_if(objects.begin(), objects.end(), [&](const lang::Object& o) { return o.name == wanted; });
     if (found != objects.end()) return static_cast<std::size_t>(found - objects.begin());

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <unordered_map>
 
+#include "frep/base/source.h"
 #include "frep/shapes/binding.h"
 
 namespace frep::shapes {
@@ -45,13 +46,6 @@ Expression block(Build& build, Op op, std::initializer_list<Expression> lead,
 
 namespace {
 
-std::string folded(std::string_view name) {
-    std::string out(name);
-    for (char& c : out)
-        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-    return out;
-}
-
 struct Table {
     Rows rows;
     std::unordered_map<std::string, std::pair<std::size_t, std::size_t>> by_name;  ///< first row, count
@@ -59,7 +53,8 @@ struct Table {
     void add(std::string_view group, Rows added) {
         for (LibraryFunction& function : added) {
             function.group = group;
-            auto& [first, count] = by_name.try_emplace(folded(function.name), rows.size(), 0).first->second;
+            auto& [first, count] =
+                by_name.try_emplace(lower_case(function.name), rows.size(), 0).first->second;
             FREP_CHECK(first + count == rows.size());  // rows of one name are adjacent
             ++count;
             rows.push_back(std::move(function));
@@ -90,7 +85,7 @@ const Table& table() {
 std::span<const LibraryFunction> library() { return table().rows; }
 
 std::span<const LibraryFunction> find_functions(std::string_view name) {
-    const auto found = table().by_name.find(folded(name));
+    const auto found = table().by_name.find(lower_case(name));
     if (found == table().by_name.end()) return {};
     return std::span(table().rows).subspan(found->second.first, found->second.second);
 }
