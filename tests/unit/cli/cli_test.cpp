@@ -45,17 +45,17 @@ void perform(const fs::path& file, const Run& run, const fs::path& folder,
 void run_file(const fs::path& file) {
     const ScratchFolder folder;
     std::vector<std::string> environment;
-    std::optional<Run> run;
+    std::vector<Run> open;  // the run whose sections are being read, if any
     const auto finish = [&] {
-        if (run) perform(file, *run, folder.path(), environment);
-        run.reset();
+        for (const Run& run : open) perform(file, run, folder.path(), environment);
+        open.clear();
     };
     for (const Section& section : read_sections(read_bytes(file))) {
         const std::string& word = section.word;
         if (word == "run" || word == "file" || word == "bytes" || word == "env") finish();
         if (word == "note") continue;
         if (word == "run") {
-            run = Run{section, {}, {}, {}, 0, {}};
+            open.push_back(Run{section, {}, {}, {}, 0, {}});
         } else if (word == "file") {
             write_bytes(folder.path() / section.rest, section.text);
         } else if (word == "bytes") {
@@ -64,18 +64,18 @@ void run_file(const fs::path& file) {
             write_bytes(folder.path() / section.rest, decode_escapes(text));
         } else if (word == "env") {
             environment = split_words(section.rest);
-        } else if (!run) {
+        } else if (open.empty()) {
             FAIL(place(file, section), ": `", word, "` before a run");
         } else if (word == "stdin") {
-            run->input = section.text;
+            open.back().input = section.text;
         } else if (word == "stdout") {
-            run->out = section.text;
+            open.back().out = section.text;
         } else if (word == "stderr") {
-            run->err = section.text;
+            open.back().err = section.text;
         } else if (word == "exit") {
-            run->exit = std::stoi(section.rest);
+            open.back().exit = std::stoi(section.rest);
         } else if (word == "written" || word == "absent") {
-            run->files.push_back(section);
+            open.back().files.push_back(section);
         } else {
             FAIL(place(file, section), ": unknown section `", word, "`");
         }
