@@ -88,19 +88,33 @@ T line_integral(T x, T rho2, T length, T s) {
     return math::select(math::equal(s, zero<T>()), length, value);
 }
 
+/// What the closed form may lose by rounding: it is a sum of terms below 1/(S p) and below the lengths, with
+/// p^2 = 1 + S^2 rho^2.
+inline double segment_loss(Interval x, Interval rho2, Interval length, Interval s) {
+    const double slope = least_magnitude(s), p2 = 1.0 + slope * slope * rho2.lo;
+    const double angles = 4.2 / (slope * math::sqrt(p2)), lengths = 4.0 * (magnitude(x) + length.hi);
+    return 0x1p-48 * math::min(angles, lengths) / p2;
+}
+
+/// The integral decreases with the distance from the line, and from the segment's middle plane.
+inline Interval segment_range(Interval x, Interval rho2, Interval length, Interval s) {
+    constexpr double ordinary = 0x1p60;  // up to it nothing overflows
+    if (!within(ordinary, x, rho2, length, s) || !(least_magnitude(s) > 1.0 / ordinary))
+        return line_integral(x, rho2, length, s);
+    const Interval half = length * Interval(0.5), off = math::abs(x - half);
+    const Interval low = line_integral(half + Interval(off.hi), Interval(rho2.hi), length, s);
+    const Interval high = line_integral(half + Interval(off.lo), Interval(rho2.lo), length, s);
+    const double loss = segment_loss(x, rho2, length, s);
+    return padded(low.lo, loss, high.hi, loss, any_flagged(x, rho2, length, s));
+}
+
 template <class T>
 T segment_term(const T* lead, const Segment<T>& a, T s) {
     const Triple<T> d = Triple<T>{lead[0], lead[1], lead[2]} - a.begin;
     const Triple<T> beside = cross(d, a.along);
     const T x = dot(d, a.along), rho2 = sum_of_squares(beside.x, beside.y, beside.z);
     if constexpr (is_interval<T>) {
-        // decreases with the distance from the line, and from the segment's middle plane
-        const Interval half = a.length * Interval(0.5), off = math::abs(x - half);
-        if (off.is_empty() || rho2.is_empty()) return Interval::empty();
-        const Interval low = line_integral(half + Interval(off.hi), Interval(rho2.hi), a.length, s);
-        const Interval high = line_integral(half + Interval(off.lo), Interval(rho2.lo), a.length, s);
-        const bool undefined = x.maybe_undefined || rho2.maybe_undefined || low.maybe_undefined;
-        return widened({low.lo, high.hi, undefined}, 0x1p-50 * magnitude(high));
+        return segment_range(x, rho2, a.length, s);
     } else {
         return line_integral(x, rho2, a.length, s);
     }
@@ -186,20 +200,30 @@ inline Interval square_distance_range(const Interval* lead, const Triangle<Inter
     return {low > 0.0 ? low : 0.0, high};
 }
 
+/// What the closed form may lose by rounding, that of the unit vectors of a thin triangle included: it is a
+/// sum of terms below 1/S^2.
+inline double triangle_loss(const Triangle<Interval>& a, Interval s) {
+    double longest = 0.0;
+    for (const Interval& length : a.length) longest = math::max(longest, length.hi);
+    const double slope = least_magnitude(s);
+    return 2e-14 / (slope * slope) * (1.0 + longest * longest / a.area.lo);
+}
+
 /// The closed form cut to area times the kernel, and by the mean value form with the slope
 /// -4 S^2 area (p - q)/(1 + S^2 r^2)^3, q in the triangle.
 inline Interval triangle_range(const Interval* lead, const Triangle<Interval>& a, Interval s) {
-    Interval value = triangle_integral(lead, a, s);
+    const Interval whole = triangle_integral(lead, a, s);
+    constexpr double ordinary = 0x1p60;
+    const double lost = triangle_loss(a, s);
+    if (!within(ordinary, lead[0], lead[1], lead[2], s) || !(lost < ordinary)) return whole;
     const Interval s2 = math::square(s), kernel = Interval(1.0) + s2 * square_distance_range(lead, a);
     const Interval range = a.area / math::square(kernel);
-    // what the closed form may lose by rounding: it is a sum of terms below 1/S^2
-    const double lost = 1e-14 * (s2.lo > 0.0 ? 1.0 / s2.lo : math::infinity);
-    value = cut(value, range.lo - lost, range.hi + lost);
+    const Interval value = cut(whole, range.lo - lost, range.hi + lost);
     double centre[3];
     Interval middle[3];
     for (int i = 0; i < 3; ++i) middle[i] = centre[i] = centre_of(lead[i]);
     const Interval steep = Interval(-4.0) * s2 * a.area / (kernel * math::square(kernel));
-    const Interval there = widened(triangle_integral(middle, a, s), lost);
+    const Interval there = widened(triangle_integral(middle, a, s), 2.0 * lost);
     return by_mean_value(value, there, lead, centre,
                          [&](int i) { return steep * (lead[i] - corner_span(a, i)); });
 }
@@ -221,12 +245,23 @@ Triangle<T> triangle_at(const Data<T>& data, std::size_t i) {
 
 // Arcs.
 
+/// An angle that rounding may have put beyond pi, where the tangent of its half changes the sign.
+template <class T>
+T within_half_turn(T angle) {
+    if constexpr (is_dual<T>) {
+        return T(within_half_turn(angle.value), angle.d);
+    } else {
+        const T limit = math::constant<T>(math::pi);
+        return math::min(math::max(angle, -limit), limit);
+    }
+}
+
 /// Integral of dt/(k - m cos t)^2 from 0 to t, k > m >= 0, as a function of t + any turn.
 template <class T>
 T arc_primitive(T t, T k, T m, T w2) {
     constexpr double inverse_turn = 0.15915494309189533577;
     const T n = math::floor(t * inverse_turn + 0.5);
-    const T rest = t - n * (2.0 * math::pi);
+    const T rest = within_half_turn(t - n * (2.0 * math::pi));
     const T w = math::sqrt(w2);
     const T angle = math::atan(w / (k - m) * math::tan(0.5 * rest)) + n * math::pi;
     return m * math::sin(t) / (w2 * (k - m * math::cos(t))) + 2.0 * k / (w2 * w) * angle;
@@ -251,30 +286,43 @@ T arc_integral(T x, T y, T z, T r, T theta, T s) {
     return arc_primitive(theta - phi, k, m, w2) - arc_primitive(-phi, k, m, w2);
 }
 
+/// What the closed form may lose by rounding: its terms are below k/w^3 times an angle, with relative errors
+/// of k/(k - m) places. Infinite where rounding may reach the pole k = m.
+inline double arc_loss(Interval near, Interval far, Interval k, Interval theta) {
+    const double least = near.lo < far.lo ? near.lo : far.lo, w2 = near.lo * far.lo;
+    const double places = k.hi / least;
+    if (!(places < 0x1p40 && w2 >= 1.0)) return math::infinity;
+    return 0x1p-46 * (magnitude(theta) + 8.0) * (1.0 + places) * (k.hi / (w2 * math::sqrt(w2)));
+}
+
 /// The closed form cut to theta times the kernel, and by the mean value form with the slope
-/// -4 S^2 theta (p - q)/(1 + S^2 distance^2)^3, q on the arc.
+/// -4 S^2 theta (p - q)/(1 + S^2 distance^2)^3, q on the arc. The closed form over a box about the axis or
+/// the arc divides by ranges that hold 0; for operands of ordinary size its value is defined all the same.
 inline Interval arc_range(const Interval* p, Interval r, Interval theta, Interval s) {
+    const Interval whole = arc_integral(p[0], p[1], p[2], r, theta, s);
+    constexpr double ordinary = 0x1p60;
+    if (!within(ordinary, p[0], p[1], p[2], r, s) || !within(0x1p20, theta)) return whole;
     const ArcReach<Interval> reach(math::hypot(p[0], p[1]), p[2], r, s);
     const Interval s2 = math::square(s), sweep = math::hull(Interval(0.0), theta);
+    const Interval k = Interval(1.0) + s2 * (math::square(r) + sum_of_squares(p[0], p[1], p[2]));
+    const double lost = arc_loss(reach.near, reach.far, k, theta);
+    if (!(lost < math::infinity)) return whole;
     const Interval from_arc[3] = {p[0] - r * math::cos(sweep), p[1] - r * math::sin(sweep), p[2]};
+    // a negative radius has its nearest point where a positive one has its farthest
+    const Interval reached = math::hull(reach.near, reach.far);
     const Interval kernel = cut(Interval(1.0) + s2 * sum_of_squares(from_arc[0], from_arc[1], from_arc[2]),
-                                reach.near.lo, reach.far.hi);
+                                reached.lo, reached.hi);
     const Interval range = theta / math::square(kernel);
-    bool undefined = theta.maybe_undefined || r.maybe_undefined || s.maybe_undefined;
+    const bool undefined = any_flagged(p[0], p[1], p[2], r, theta, s);
     double centre[3];
     Interval middle[3];
-    for (int i = 0; i < 3; ++i) {
-        if (p[i].is_empty()) return Interval::empty();
-        undefined = undefined || p[i].maybe_undefined;
-        middle[i] = centre[i] = centre_of(p[i]);
-    }
-    const double lost = 1e-14 * magnitude(theta);
-    Interval value = arc_integral(p[0], p[1], p[2], r, theta, s);
-    if (value.is_empty()) value = {-math::infinity, math::infinity};
-    value = cut(Interval(value.lo, value.hi), range.lo - lost, range.hi + lost);
+    for (int i = 0; i < 3; ++i) middle[i] = centre[i] = centre_of(p[i]);
+    Interval value = {-math::infinity, math::infinity};
+    if (!whole.is_empty()) value = {whole.lo, whole.hi};
+    value = cut(value, range.lo - lost, range.hi + lost);
     const Interval at_centre = arc_integral(middle[0], middle[1], middle[2], r, theta, s);
     const Interval steep = Interval(-4.0) * s2 * theta / (kernel * math::square(kernel));
-    const Interval there = widened(Interval(at_centre.lo, at_centre.hi), lost);
+    const Interval there = widened(Interval(at_centre.lo, at_centre.hi), 2.0 * lost);
     return by_mean_value(value, there, p, centre, [&](int i) { return steep * from_arc[i]; })
         .flagged(undefined);
 }
@@ -302,7 +350,7 @@ T conv_point(const T* lead, Data<T> data) {
         sum += convolution_detail::cauchy(
             math::square(data[i + 3]),
             sum_of_squares(lead[0] - data[i], lead[1] - data[i + 1], lead[2] - data[i + 2]));
-    return sum;
+    return defined_with(sum, lead[0], lead[1], lead[2]);
 }
 
 template <class T>
@@ -310,7 +358,7 @@ T conv_line(const T* lead, Data<T> data) {
     T sum = zero<T>();
     for (std::size_t i = 0; i + 7 <= data.size(); i += 7)
         sum += convolution_detail::segment_term(lead, convolution_detail::segment_at(data, i), data[i + 6]);
-    return sum;
+    return defined_with(sum, lead[0], lead[1], lead[2]);
 }
 
 template <class T>
@@ -320,7 +368,7 @@ T conv_line_clamped(const T* lead, Data<T> data) {
         sum = math::min(
             sum + convolution_detail::segment_term(lead, convolution_detail::segment_at(data, i), lead[3]),
             one<T>());
-    return sum;
+    return defined_with(sum, lead[0], lead[1], lead[2], lead[3]);
 }
 
 template <class T>
@@ -329,7 +377,7 @@ T conv_triangle(const T* lead, Data<T> data) {
     for (std::size_t i = 0; i + 11 <= data.size(); i += 11)
         sum += data[i + 10] *
                convolution_detail::triangle_term(lead, convolution_detail::triangle_at(data, i), data[i + 9]);
-    return sum;
+    return defined_with(sum, lead[0], lead[1], lead[2]);
 }
 
 template <class T>
@@ -347,7 +395,7 @@ T conv_arc(const T* lead, Data<T> data) {
             sum += data[i + 12] * integral;
         }
     }
-    return sum;
+    return defined_with(sum, lead[0], lead[1], lead[2]);
 }
 
 }  // namespace frep::kernels

@@ -96,8 +96,17 @@ T sardf(T x, T y, T r, T alpha) {
     const T at_y = math::select(above_x, moving_zero(y), x);
     value = math::select(zero_x, at_x, math::select(zero_y, at_y, value));
     value = math::select(math::both(zero_x, zero_y), moving_zero(x + y), value);
-    const T all = (x + y) + (r + alpha);
-    return math::select(math::is_nan(all), all, value);
+    return defined_with(value, x, y, r, alpha);
+}
+
+/// Operands up to this size overflow nowhere.
+inline constexpr double ordinary = 0x1p300;
+
+/// What the sector between negative operands loses by its root, relative to its value: at tan(alpha) = 1 the
+/// root is of 0. Infinite where rounding may make it undefined.
+inline double sector_loss(double alpha) {
+    const double t = math::tan(alpha), apart = t < 1.0 ? 1.0 - t : 1.0;
+    return apart < 1e-6 ? math::infinity : 0x1p-46 / apart;
 }
 
 }  // namespace distance_detail
@@ -107,35 +116,39 @@ T sardf_int(T x, T y, T r, T alpha) {
     return distance_detail::sardf(x, y, r, alpha);
 }
 
-/// Grows with both operands and falls with the radius; for a sector angle that is no single number, unknown
-/// where both operands may be negative.
+/// Grows with both operands and falls with the radius (one below 0 rounds nothing, as 0 does); for a sector
+/// angle that is no single number, unknown where both operands may be negative.
 inline Interval sardf_int(Interval x, Interval y, Interval r, Interval alpha) {
-    if (x.is_empty() || y.is_empty() || r.is_empty() || alpha.is_empty()) return Interval::empty();
-    const bool undefined =
-        x.maybe_undefined || y.maybe_undefined || r.maybe_undefined || alpha.maybe_undefined;
+    using namespace distance_detail;
+    if (any_empty(x, y, r, alpha)) return Interval::empty();
     const bool outer = x.lo < 0.0 && y.lo < 0.0;
-    if (outer && !is_point(alpha)) return {-math::infinity, math::infinity, true};
-    const double low = distance_detail::sardf(x.lo, y.lo, r.hi, alpha.lo);
-    const double high = distance_detail::sardf(x.hi, y.hi, r.lo, alpha.lo);
-    if (low != low || high != high) return {-math::infinity, math::infinity, true};
-    const double pad = 0x1p-46 * (magnitude(x) + magnitude(y)) + 0x1p-48 * magnitude(r);
-    const auto slack = [&](double v) { return v == 0.0 ? 0.0 : pad; };
-    return {math::next_down(low - slack(low)), math::next_up(high + slack(high)), undefined};
+    if (r.hi > ordinary || !within(ordinary, alpha)) return unknown();
+    if (outer && (!is_point(alpha) || !within(ordinary, x, y))) return unknown();
+    const double low = sardf(x.lo, y.lo, r.hi, alpha.lo), high = sardf(x.hi, y.hi, r.lo, alpha.lo);
+    const double loss = outer ? sector_loss(alpha.lo) : 0x1p-46;
+    if (low != low || high != high || !(loss < 1.0)) return unknown();
+    const double radius = r.hi > 0.0 ? r.hi : 0.0;
+    const auto pad = [&](double v) { return v == 0.0 ? 0.0 : loss * (math::abs(v) + radius); };
+    return padded(low, pad(low), high, pad(high), any_flagged(x, y, r, alpha));
 }
 
 template <class T>
 T sardf_blend(T x, T y, T r) {
     return distance_detail::fillet(x, y, r);
 }
-/// Grows with both operands and falls with the radius.
+/// Grows with both operands and falls with the radius; one below 0 is no fillet, as 0 is.
 inline Interval sardf_blend(Interval x, Interval y, Interval r) {
-    if (x.is_empty() || y.is_empty() || r.is_empty()) return Interval::empty();
-    const bool undefined = x.maybe_undefined || y.maybe_undefined || r.maybe_undefined;
-    const double low = distance_detail::fillet(x.lo, y.lo, r.hi),
-                 high = distance_detail::fillet(x.hi, y.hi, r.lo);
-    if (low != low || high != high) return {-math::infinity, math::infinity, true};
-    const double pad = 0x1p-49 * (magnitude(x) + magnitude(y) + magnitude(r));
-    return {low - pad, high + pad, undefined};
+    using namespace distance_detail;
+    if (any_empty(x, y, r)) return Interval::empty();
+    if (r.hi > ordinary) return unknown();
+    double low = fillet(x.lo, y.lo, r.hi), high = fillet(x.hi, y.hi, r.lo);
+    if (low != low || high != high) return unknown();
+    constexpr double half = 0.5 * math::max_finite;  // beyond it x + y overflows
+    if (x.hi > half && y.hi > half) high = math::infinity;
+    if (x.lo < -half && y.lo < -half) low = -math::infinity;
+    const double radius = r.hi > 0.0 ? r.hi : 0.0;
+    return padded(low, 0x1p-48 * (math::abs(low) + radius), high, 0x1p-48 * (math::abs(high) + radius),
+                  any_flagged(x, y, r));
 }
 
 /// Terms beyond this number make the sawtooth undefined.
@@ -155,8 +168,8 @@ T sawtooth(T t, T n, T a, T f) {
     const T value = (0.5 - sum) * 2.0 / (a * math::pi);
     const auto too_many = math::less(math::constant<T>(most_sawtooth_terms + 1.0), n);
     const T checked = math::select(math::less_equal(n, one<T>()), zero<T>(), value);
-    const T undefined = math::constant<T>(math::quiet_nan);
-    return math::select(math::either(too_many, math::is_nan(n)), undefined, checked);
+    return math::select(math::either(too_many, any_nan(t, n, a, f)), math::constant<T>(math::quiet_nan),
+                        checked);
 }
 
 }  // namespace frep::kernels

@@ -44,6 +44,7 @@ inline double secular_root(const Secular& f, double low, double high) {
         (square > 1.0 ? low : high) = sigma;
         const double length = math::sqrt(square);
         double next = sigma + (length - 1.0) * square / slope;
+        if (next == sigma && sigma < 0x1p-60) break;  // 200 halvings would not come back to such a small one
         if (!(next > low && next < high)) next = low + 0.5 * (high - low);
         if (!(next > low && next < high) || next == sigma) break;
         const double moved = next > sigma ? next - sigma : sigma - next;
@@ -65,7 +66,8 @@ inline Nearest nearest_in_octant(const double* y, const double* e) {
     for (int i = 0; i < 3; ++i) {
         const double ratio = e[i] / unit;
         f.offset[i] = (e[i] - unit) / unit * (ratio + 1.0);
-        f.top[i] = ratio * ratio * (y[i] / e[i]);
+        const double top = ratio * ratio * (y[i] / e[i]);
+        f.top[i] = top > 0x1p-900 ? top : 0.0;  // denormals have too few places for the quotients below
         const double reach = f.top[i] - f.offset[i];
         if (reach > low) low = reach;
         sum += f.top[i] * f.top[i];
@@ -103,16 +105,25 @@ inline Nearest nearest_in_octant(const double* y, const double* e) {
     return out;
 }
 
+/// A point so far away that the ellipsoid is a point to it.
+inline Nearest nearest_to_far(const double* p) {
+    const double length = math::hypot(math::hypot(p[0], p[1]), p[2]);
+    Nearest out = {-length, {0, 0, 0}, {0, 0, 0}};
+    if (length < math::infinity)
+        for (int i = 0; i < 3; ++i) out.normal[i] = p[i] / length;
+    return out;
+}
+
 inline Nearest nearest(double x, double y, double z, double a, double b, double c) {
     const double p[3] = {math::abs(x), math::abs(y), math::abs(z)};
     const double e[3] = {math::abs(a), math::abs(b), math::abs(c)};
-    for (int i = 0; i < 3; ++i) {
-        if (!(e[i] > 0.0 && e[i] < math::infinity) || !(p[i] < math::infinity)) {
-            const bool far = e[i] > 0.0 && e[i] < math::infinity && p[i] == math::infinity;
-            return {far ? -math::infinity : math::quiet_nan, {0, 0, 0}, {0, 0, 0}};
-        }
-    }
-    return nearest_in_octant(p, e);
+    bool undefined = false;
+    for (int i = 0; i < 3; ++i)
+        undefined = undefined || p[i] != p[i] || !(e[i] > 0.0 && e[i] < math::infinity);
+    if (undefined) return {math::quiet_nan, {0, 0, 0}, {0, 0, 0}};
+    const double largest = math::max(math::max(p[0], p[1]), p[2]);
+    const double axis = math::max(math::max(e[0], e[1]), e[2]);
+    return largest > 0x1p60 * axis ? nearest_to_far(p) : nearest_in_octant(p, e);
 }
 
 }  // namespace ellipsoid_detail
@@ -126,25 +137,25 @@ T ellipsoid_distance(T x, T y, T z, T a, T b, T c) {
 }
 
 /// The value is concave and even in the point, so it falls with |x|, |y|, |z|; it grows with the semi-axes.
+/// Unknown for semi-axes so different, large or small that the iteration may leave the doubles.
 inline Interval ellipsoid_distance(Interval x, Interval y, Interval z, Interval a, Interval b, Interval c) {
+    if (any_empty(x, y, z, a, b, c)) return Interval::empty();
     const Interval p[3] = {math::abs(x), math::abs(y), math::abs(z)};
     const Interval e[3] = {math::abs(a), math::abs(b), math::abs(c)};
-    bool undefined = false;
-    double size = 0.0;
+    double near = 0.0, far = 0.0, size = 0.0, least = math::infinity;
     for (int i = 0; i < 3; ++i) {
-        if (p[i].is_empty() || e[i].is_empty()) return Interval::empty();
-        undefined = undefined || p[i].maybe_undefined || e[i].maybe_undefined || !(e[i].lo > 0.0);
-        size += p[i].hi + e[i].hi;
+        near += p[i].lo;
+        far += p[i].hi;
+        size += e[i].hi;
+        least = math::min(least, e[i].lo);
     }
+    if (!(least >= 0x1p-300 && size <= 0x1p300 && size <= 0x1p40 * least)) return unknown();
     const auto at = [](double px, double py, double pz, double pa, double pb, double pc) {
         return ellipsoid_detail::nearest(px, py, pz, pa, pb, pc).distance;
     };
-    double low = at(p[0].hi, p[1].hi, p[2].hi, e[0].lo, e[1].lo, e[2].lo);
-    double high = at(p[0].lo, p[1].lo, p[2].lo, e[0].hi, e[1].hi, e[2].hi);
-    if (low != low) low = -math::infinity;
-    if (high != high) high = math::infinity;
-    const double pad = 0x1p-47 * size;
-    return {low - pad, high + pad, undefined};
+    const double low = at(p[0].hi, p[1].hi, p[2].hi, e[0].lo, e[1].lo, e[2].lo);
+    const double high = at(p[0].lo, p[1].lo, p[2].lo, e[0].hi, e[1].hi, e[2].hi);
+    return padded(low, 0x1p-47 * (far + size), high, 0x1p-46 * (near + size), any_flagged(x, y, z, a, b, c));
 }
 
 namespace ellipsoid_detail {

@@ -99,7 +99,7 @@ T bezier_volume(const T* lead, Data<T> data) {
     } else {
         T basis[3][most_controls];
         for (int axis = 0; axis < 3; ++axis) bernstein(lead[axis], net.size[axis], basis[axis]);
-        return tensor_sum(data, net, basis);
+        return defined_with(tensor_sum(data, net, basis), lead[0], lead[1], lead[2]);
     }
 }
 
@@ -114,9 +114,7 @@ T bspline_volume(const T* lead, Data<T> data) {
     } else {
         T basis[3][most_controls];
         for (int axis = 0; axis < 3; ++axis) bspline(lead[axis], net.size[axis], basis[axis]);
-        const T sum = tensor_sum(data, net, basis);
-        const T place = lead[0] + lead[1] + lead[2];
-        return math::select(math::is_nan(place), place, sum);
+        return defined_with(tensor_sum(data, net, basis), lead[0], lead[1], lead[2]);
     }
 }
 
@@ -128,9 +126,10 @@ S voxel_value(const Data<T>& data, const VoxelGrid& grid, S x, S y, S z) {
     const S at[3] = {x, y, z};
     std::size_t cell[3];
     S low[3], high[3];
+    for (const S& a : at)
+        if (number_of(a) != number_of(a)) return math::constant<S>(math::quiet_nan);
     for (std::size_t i = 0; i < 3; ++i) {
         const double a = number_of(at[i]), last = static_cast<double>(grid.size[i] - 1);
-        if (a != a) return math::constant<S>(math::quiet_nan);
         if (!(a >= 0.0 && a <= last)) return zero<S>();
         const double corner = math::min(math::floor(a), last - 1.0);
         cell[i] = static_cast<std::size_t>(corner);
@@ -163,7 +162,7 @@ T voxel_sum(const T* lead, const Data<T>& data, const VoxelGrid& grid) {
         const auto outside = math::either(math::less(lead[axis], zero<T>()), math::less(last, lead[axis]));
         sum = math::select(outside, zero<T>(), sum);
     }
-    return sum;
+    return defined_with(sum, lead[0], lead[1], lead[2]);
 }
 
 template <class T>

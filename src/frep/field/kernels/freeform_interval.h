@@ -9,6 +9,8 @@
 
 namespace frep::kernels::freeform_detail {
 
+/// Sums of numbers up to this size do not overflow.
+inline constexpr double ordinary = 1e290;
 /// Control values an axis at most: 21 of a model and 3 layers around them.
 inline constexpr std::size_t most_controls = 27;
 
@@ -88,7 +90,7 @@ inline Interval bezier_range(const Interval* lead, const Data<Interval>& data, c
         degrees += net.size[axis];
     }
     const double lost = 0x1p-51 * static_cast<double>(2 * degrees + 8) * largest * weight;
-    if (!(lost < math::infinity)) return {-math::infinity, math::infinity, true};
+    if (!(largest * weight <= ordinary)) return unknown();  // sums may overflow
     const std::size_t plane = net.size[1] * net.size[2];
     for (std::size_t i = 0; i < plane; ++i) blossom(&values[i], net.size[0], plane, lead[0]);
     for (std::size_t i = 0; i < net.size[0]; ++i)
@@ -161,6 +163,7 @@ inline Interval bspline_range(const Interval* lead, const Data<Interval>& data, 
     Interval range = Interval::empty();
     const auto join = [&](Interval value) { range = range.is_empty() ? value : math::hull(range, value); };
     for (std::size_t i = 0; i < net.count; ++i) largest = math::max(largest, magnitude(data[3 + i]));
+    if (!(largest <= ordinary)) return unknown();
     const double lost = 0x1p-45 * largest;
     if (met > 8) {  // the convex hull of the control values that count
         for (std::size_t i = cells[0].first; i <= cells[0].last + 3; ++i)
@@ -204,47 +207,66 @@ inline Interval voxel_cell(const Data<Interval>& data, const VoxelGrid& grid, co
     return mix(plane[0], plane[1], offset[2]);
 }
 
-inline Interval voxel_range(const Interval* lead, const Data<Interval>& data, const VoxelGrid& grid) {
-    CellRange cells[3];
-    Interval at[3];
-    bool undefined = false, leaves = false;
-    std::size_t met = 1;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-        const double last = static_cast<double>(grid.size[axis]) - 1.0;
-        if (lead[axis].is_empty()) return Interval::empty();
-        undefined = undefined || lead[axis].maybe_undefined;
-        if (lead[axis].lo > last || lead[axis].hi < 0.0) return Interval(0.0).flagged(undefined);
-        leaves = leaves || lead[axis].lo < 0.0 || lead[axis].hi > last;
-        at[axis] = cut(lead[axis], 0.0, last);
-        cells[axis] = cells_of(at[axis], last - 1.0);
-        met *= cells[axis].last - cells[axis].first + 1;
+/// Hull of ranges.
+struct VoxelHull {
+    double low = math::infinity, high = -math::infinity;
+    void add(Interval range) {
+        low = math::min(low, range.lo);
+        high = math::max(high, range.hi);
     }
-    double low = leaves ? 0.0 : math::infinity, high = leaves ? 0.0 : -math::infinity;
-    const auto join = [&](double a, double b) {
-        if (a != a || b != b) undefined = true;
-        if (a < low) low = a;
-        if (b > high) high = b;
-    };
-    const std::size_t beyond = met > 8 ? 1 : 0;
-    for (std::size_t k = cells[2].first; k <= cells[2].last + beyond; ++k)
-        for (std::size_t j = cells[1].first; j <= cells[1].last + beyond; ++j)
-            for (std::size_t i = cells[0].first; i <= cells[0].last + beyond; ++i) {
-                if (beyond) {
-                    const double value = data.number(grid.index(i, j, k));
-                    join(value, value);
-                    continue;
-                }
+};
+
+/// The values of the samples of the cells; unknown (false) when one of them is not finite.
+inline bool voxel_samples(const Data<Interval>& data, const VoxelGrid& grid, const CellRange* cells,
+                          VoxelHull& hull) {
+    for (std::size_t k = cells[2].first; k <= cells[2].last + 1; ++k)
+        for (std::size_t j = cells[1].first; j <= cells[1].last + 1; ++j)
+            for (std::size_t i = cells[0].first; i <= cells[0].last + 1; ++i) {
+                const double value = data.number(grid.index(i, j, k));
+                if (!(math::abs(value) <= ordinary)) return false;
+                hull.add(value);
+            }
+    return true;
+}
+
+/// Trilinear ranges of the cells, one by one.
+inline void voxel_cells(const Data<Interval>& data, const VoxelGrid& grid, const CellRange* cells,
+                        const Interval* at, VoxelHull& hull) {
+    for (std::size_t k = cells[2].first; k <= cells[2].last; ++k)
+        for (std::size_t j = cells[1].first; j <= cells[1].last; ++j)
+            for (std::size_t i = cells[0].first; i <= cells[0].last; ++i) {
                 const std::size_t cell[3] = {i, j, k};
                 Interval offset[3];
                 for (std::size_t axis = 0; axis < 3; ++axis) {
                     const Interval corner(static_cast<double>(cell[axis]));
                     offset[axis] = cut(cut(at[axis], corner.lo, corner.lo + 1.0) - corner, 0.0, 1.0);
                 }
-                const Interval value = voxel_cell(data, grid, cell, offset);
-                join(value.lo, value.hi);
+                hull.add(voxel_cell(data, grid, cell, offset));
             }
-    const double lost = 0x1p-48 * math::max(math::abs(low), math::abs(high));
-    return widened(Interval(low, high, undefined), lost);
+}
+
+inline Interval voxel_range(const Interval* lead, const Data<Interval>& data, const VoxelGrid& grid) {
+    if (any_empty(lead[0], lead[1], lead[2])) return Interval::empty();
+    const bool undefined = any_flagged(lead[0], lead[1], lead[2]);
+    CellRange cells[3];
+    Interval at[3];
+    bool leaves = false;
+    std::size_t met = 1;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const double last = static_cast<double>(grid.size[axis]) - 1.0;
+        if (lead[axis].lo > last || lead[axis].hi < 0.0) return Interval(0.0).flagged(undefined);
+        leaves = leaves || lead[axis].lo < 0.0 || lead[axis].hi > last;
+        at[axis] = cut(lead[axis], 0.0, last);
+        cells[axis] = cells_of(at[axis], last - 1.0);
+        met *= cells[axis].last - cells[axis].first + 1;
+    }
+    VoxelHull samples, hull;
+    if (!voxel_samples(data, grid, cells, samples)) return unknown();
+    if (met <= 8) voxel_cells(data, grid, cells, at, hull);
+    if (met > 8) hull = samples;
+    if (leaves) hull.add(0.0);
+    const double lost = 0x1p-48 * math::max(math::abs(samples.low), math::abs(samples.high));
+    return widened(Interval(hull.low, hull.high, undefined), lost);
 }
 
 }  // namespace frep::kernels::freeform_detail
