@@ -44,7 +44,7 @@ Case plain_case(Op op) {
     return test;
 }
 
-/// A block operation with `items` items; with `nodes` one item is made of coordinates.
+/// A block operation with `items` items; with `nodes` some of their numbers are coordinates.
 Case block_case(Op op, Random& random, std::size_t items, bool nodes) {
     Case test;
     test.op = op;
@@ -55,15 +55,20 @@ Case block_case(Op op, Random& random, std::size_t items, bool nodes) {
     const DataLayout layout = data_layout(op);
     std::size_t count = layout.item * items;
     if (layout.volume) {
-        const std::size_t sizes[3] = {1 + random.below(5), 1 + random.below(5), 1 + random.below(5)};
-        for (const std::size_t n : sizes) test.block.push_back(static_cast<double>(n));
-        count = sizes[0] * sizes[1] * sizes[2];
+        count = 1;
+        for (int axis = 0; axis < 3; ++axis) {
+            const std::size_t n = layout.least + random.below(4);
+            test.block.push_back(static_cast<double>(n));
+            count *= n;
+        }
     }
     for (std::size_t i = 0; i < count; ++i) test.block.push_back(random.plain(3));
     for (const double value : test.block) data.push_back(graph->constant(value));
     if (nodes) {
         const std::size_t first = layout.volume ? 3 : 0;
-        for (std::size_t i = first; i < data.size() && used < 12; ++i) data[i] = graph->coordinate(used++);
+        const std::size_t start = random.below(count);
+        for (std::size_t i = 0; i < count && used < 12; ++i)
+            data[first + (start + i) % count] = graph->coordinate(used++);
     }
     test.field.value = graph->make_block(op, lead, data);
     test.field.graph = std::move(graph);

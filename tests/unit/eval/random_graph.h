@@ -82,13 +82,15 @@ inline constexpr std::array<double, 36> special_numbers = {frep::math::quiet_nan
 struct DataLayout {
     std::size_t item = 1;
     bool volume = false;
+    std::size_t least = 1;  ///< values an axis at least; fewer leave the volume undefined
 };
 
 inline DataLayout data_layout(frep::Op op) {
     const std::string_view doc = frep::info(op).doc;
     const std::size_t at = doc.find("data ");
     if (at == std::string_view::npos) return {};
-    if (doc.find(", then") != std::string_view::npos) return {3, true};
+    if (doc.find(", then") != std::string_view::npos)
+        return {3, true, op == frep::Op::bspline_volume ? 4u : op == frep::Op::voxels ? 2u : 1u};
     DataLayout layout{0, false};
     bool in_word = false;
     for (std::size_t i = at + 5; i < doc.size() && doc[i] != ';' && doc[i] != ','; ++i) {
@@ -274,7 +276,7 @@ inline frep::NodeId RandomField::block(frep::Graph& graph, frep::Op op, const st
     if (layout.volume) {
         items = 1;
         for (int i = 0; i < 3; ++i) {
-            const std::size_t n = 1 + random_.below(5);
+            const std::size_t n = random_.chance(4) ? 1 : layout.least + random_.below(3);
             items *= n;
             data.push_back(graph.constant(static_cast<double>(n)));
         }

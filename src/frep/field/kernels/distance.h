@@ -102,11 +102,25 @@ T sardf(T x, T y, T r, T alpha) {
 /// Operands up to this size overflow nowhere.
 inline constexpr double ordinary = 0x1p300;
 
-/// What the sector between negative operands loses by its root, relative to its value: at tan(alpha) = 1 the
-/// root is of 0. Infinite where rounding may make it undefined.
-inline double sector_loss(double alpha) {
-    const double t = math::tan(alpha), apart = t < 1.0 ? 1.0 - t : 1.0;
-    return apart < 1e-6 ? math::infinity : 0x1p-46 / apart;
+/// What the value loses by rounding, relative to itself and the radius: the root of the sector between
+/// negative operands is of 0 at tan(alpha) = 1. Infinite where rounding may make it undefined.
+inline double sardf_loss(bool outer, double alpha) {
+    const double t = math::tan(alpha), apart = outer && t < 1.0 ? 1.0 - t : 1.0;
+    return apart < 1e-6 ? math::infinity : 0x1p-46 / math::min(apart, 1.0);
+}
+
+/// Range where both operands may be negative, from the values at the corners, for one angle, or several in
+/// 0..0.78. For 0 <= tan(alpha) < 1 the sector rounds the minimum, at most to the distance from the corner;
+/// for others the value is one of x and y, and not even continuous.
+inline Interval with_sector(Interval corners, Interval x, Interval y, Interval alpha) {
+    const double x_lo = x.lo, y_lo = y.lo, x_hi = math::min(x.hi, 0.0), y_hi = math::min(y.hi, 0.0);
+    if (!is_point(alpha)) {
+        const double least = -math::hypot(x_lo, y_lo), most = math::min(x_hi, y_hi);
+        return {math::min(corners.lo, least), math::max(corners.hi, most)};
+    }
+    const double t = math::tan(alpha.lo);
+    if (t >= 0.0 && t < 1.0) return corners;
+    return {math::min(corners.lo, math::min(x_lo, y_lo)), math::max(corners.hi, math::max(x_hi, y_hi))};
 }
 
 }  // namespace distance_detail
@@ -116,20 +130,22 @@ T sardf_int(T x, T y, T r, T alpha) {
     return distance_detail::sardf(x, y, r, alpha);
 }
 
-/// Grows with both operands and falls with the radius (one below 0 rounds nothing, as 0 does); for a sector
-/// angle that is no single number, unknown where both operands may be negative.
+/// Grows with both operands, between negative ones if 0 <= tan(alpha) < 1, and falls with the radius (one
+/// below 0 rounds nothing, as 0 does).
 inline Interval sardf_int(Interval x, Interval y, Interval r, Interval alpha) {
     using namespace distance_detail;
     if (any_empty(x, y, r, alpha)) return Interval::empty();
     const bool outer = x.lo < 0.0 && y.lo < 0.0;
     if (r.hi > ordinary || !within(ordinary, alpha)) return unknown();
-    if (outer && (!is_point(alpha) || !within(ordinary, x, y))) return unknown();
+    if (outer && !within(ordinary, x, y)) return unknown();
+    if (outer && !is_point(alpha) && !(alpha.lo >= 0.0 && alpha.hi < 0.78)) return unknown();
     const double low = sardf(x.lo, y.lo, r.hi, alpha.lo), high = sardf(x.hi, y.hi, r.lo, alpha.lo);
-    const double loss = outer ? sector_loss(alpha.lo) : 0x1p-46;
+    const double loss = sardf_loss(outer, alpha.hi);
     if (low != low || high != high || !(loss < 1.0)) return unknown();
+    const Interval range = outer ? with_sector({low, high}, x, y, alpha) : Interval(low, high);
     const double radius = r.hi > 0.0 ? r.hi : 0.0;
     const auto pad = [&](double v) { return v == 0.0 ? 0.0 : loss * (math::abs(v) + radius); };
-    return padded(low, pad(low), high, pad(high), any_flagged(x, y, r, alpha));
+    return padded(range.lo, pad(range.lo), range.hi, pad(range.hi), any_flagged(x, y, r, alpha));
 }
 
 template <class T>
