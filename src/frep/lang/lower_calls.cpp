@@ -29,6 +29,15 @@ void Lowerer::poison(Items& items) {
     for (NodeId& item : items.writable()) item = graph().undefined();
 }
 
+Result<std::string> Lowerer::read_file(std::string_view name, Span span) {
+    const Error none{ErrorKind::io, "this model has no folder to read files from"};
+    auto content = options_.read_file ? options_.read_file(name) : Result<std::string>(none);
+    if (!content)
+        report(Severity::error, "HF109", span, content.error().message, "named here",
+               "files lie in the model's folder or below; links are not followed");
+    return content;
+}
+
 NodeId Lowerer::library_call(const ExpressionNode& node) {
     const shapes::LibraryFunction& function = *node.function;
     const std::size_t count = node.operands.size();
@@ -58,7 +67,8 @@ NodeId Lowerer::library_call(const ExpressionNode& node) {
     pending_.resize(base);
     NodeId result = unassigned;
     if (assigned) {
-        shapes::Build build{graph(), {}, options_.read_file};
+        shapes::Build build{graph(), {}, {}};
+        build.read_file = [&](std::string_view name) { return read_file(name, node.span); };
         build.warn = [&](const std::string& message) {
             report(Severity::warning, "HF105", node.span, message, "in this call",
                    fmt::format("the value is then {:.0f}, as in the old tools", shapes::error_value));

@@ -191,6 +191,18 @@ void Lowerer::forget_written(StatementId id) {
     for (std::uint32_t i : written.arrays_written) poison(frame().arrays[i]);
 }
 
+void Lowerer::refuse_loop(const StatementNode& statement, NodeId condition, std::int64_t steps) {
+    const bool certain = uncertain_ == 0 && !graph().depends_on_parameters(condition);
+    const Severity severity = certain ? Severity::error : Severity::warning;
+    const Span place = program_.expressions[statement.value].span;
+    if (steps == 0)
+        report(severity, "HF107", place, "this loop never ends", "always true",
+               "change a variable of the condition in the loop");
+    else
+        report(severity, "HF102", place, fmt::format("this loop takes more than {} steps", steps),
+               "still true", "make the loop shorter; until then the values that it computes are undefined");
+}
+
 Lowerer::Unrolled Lowerer::unroll(const StatementNode& statement, StatementId id) {
     constexpr std::int64_t endless = 1'000'000;
     const std::size_t start = graph().size();
@@ -203,10 +215,7 @@ Lowerer::Unrolled Lowerer::unroll(const StatementNode& statement, StatementId id
         if (undefined) forget_written(id);
         if (undefined || math::abs(*value) < 1e-6) return Unrolled::done;
         if (count == endless || (count == 0 && never_ends(statement, id))) {
-            const bool certain = uncertain_ == 0 && !graph().depends_on_parameters(condition);
-            report(certain ? Severity::error : Severity::warning, "HF107",
-                   program_.expressions[statement.value].span, "this loop never ends", "always true",
-                   "change a variable of the condition in the loop");
+            refuse_loop(statement, condition, count);
             forget_written(id);
             return Unrolled::done;
         }

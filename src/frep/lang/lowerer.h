@@ -90,6 +90,8 @@ class Lowerer {
     NodeId library_call(const ExpressionNode& node);
     NodeId object_call(const ExpressionNode& node);
     NodeId inline_object(std::uint32_t object, Items x, Items a, Items& s, Span span);
+    /// The content of a file that the model names; one that cannot be read is an error at `span`.
+    Result<std::string> read_file(std::string_view name, Span span);
     bool all_assigned(const Items& items, const ArrayInfo& info, Span span);
     void poison(Items& items);
 
@@ -105,6 +107,7 @@ class Lowerer {
     void loop(const StatementNode& statement, StatementId id);
     enum class Unrolled { done, depends_on_point, too_long, stopped };
     Unrolled unroll(const StatementNode& statement, StatementId id);
+    void refuse_loop(const StatementNode& statement, NodeId condition, std::int64_t steps);
     bool never_ends(const StatementNode& statement, StatementId id);
     /// Makes every variable that the statement may write undefined.
     void forget_written(StatementId id);

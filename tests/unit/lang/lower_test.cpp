@@ -142,8 +142,7 @@ TEST_CASE("limits of the lowering have their own diagnostics") {
         doubling += fmt::format(
             "o{}(x[3],a[1]){{ t=hfShift3D(x,{},1,1); y=o{}(x,a); t=hfShift3D(x,1,{},1); o{}=y+o{}(x,a); }}\n",
             i, i, i - 1, i, i, i - 1);
-    const std::string over = code_of(doubling + "my_model(x[3],a[1]){ my_model=o60(x,a); }");
-    CHECK((over == "HF101" || over == "HF102"));
+    CHECK(code_of(doubling + "my_model(x[3],a[1]){ my_model=o60(x,a); }") == "HF101");
     std::string chain = "o0(x[3],a[1]){ o0=x[1]; }\n";
     for (int i = 1; i <= 5000; ++i)
         chain += fmt::format("o{}(x[3],a[1]){{ o{}=o{}(x,a)+1; }}\n", i, i, i - 1);
