@@ -201,12 +201,12 @@ inline Interval square_distance_range(const Interval* lead, const Triangle<Inter
 }
 
 /// What the closed form may lose by rounding, that of the unit vectors of a thin triangle included: it is a
-/// sum of terms below 1/S^2.
-inline double triangle_loss(const Triangle<Interval>& a, Interval s) {
+/// sum of terms below 1/S^2, and the heights over the plane have errors relative to the distance.
+inline double triangle_loss(const Triangle<Interval>& a, Interval s, double square_distance) {
     double longest = 0.0;
     for (const Interval& length : a.length) longest = math::max(longest, length.hi);
-    const double slope = least_magnitude(s);
-    return 2e-14 / (slope * slope) * (1.0 + longest * longest / a.area.lo);
+    const double slope = least_magnitude(s), far = magnitude(s) * math::sqrt(square_distance);
+    return 2e-14 / (slope * slope) * (1.0 + longest * longest / a.area.lo) * (1.0 + far);
 }
 
 /// The closed form cut to area times the kernel, and by the mean value form with the slope
@@ -214,9 +214,10 @@ inline double triangle_loss(const Triangle<Interval>& a, Interval s) {
 inline Interval triangle_range(const Interval* lead, const Triangle<Interval>& a, Interval s) {
     const Interval whole = triangle_integral(lead, a, s);
     constexpr double ordinary = 0x1p60;
-    const double lost = triangle_loss(a, s);
+    const Interval square_distance = square_distance_range(lead, a);
+    const double lost = triangle_loss(a, s, square_distance.hi);
     if (!within(ordinary, lead[0], lead[1], lead[2], s) || !(lost < ordinary)) return whole;
-    const Interval s2 = math::square(s), kernel = Interval(1.0) + s2 * square_distance_range(lead, a);
+    const Interval s2 = math::square(s), kernel = Interval(1.0) + s2 * square_distance;
     const Interval range = a.area / math::square(kernel);
     const Interval value = cut(whole, range.lo - lost, range.hi + lost);
     double centre[3];
