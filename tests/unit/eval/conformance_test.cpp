@@ -268,6 +268,33 @@ TEST_CASE("intervals hold the values of every operation") {
     }
 }
 
+/// Rule 5: what is read and undefined makes the value undefined, for numbers and for intervals. `select`
+/// reads one branch; data items may be left out.
+TEST_CASE("an undefined operand makes every operation undefined") {
+    for (int index = 0; index < op_count; ++index) {
+        const auto op = static_cast<Op>(index);
+        if (!is_tested(op)) continue;
+        CAPTURE(name_of(op));
+        Random random(static_cast<std::uint64_t>(index) + 500);
+        const Case test = cases_of(op)[0];
+        const auto reads = static_cast<std::size_t>(op == Op::select ? 1 : info(op).arity);
+        std::size_t defined = 0;
+        for (int trial = 0; trial < 300; ++trial) {
+            std::vector<double> point(test.arguments);
+            for (double& x : point) {
+                do x = random_coordinate(random);
+                while (x != x);
+            }
+            point[random.below(reads)] = math::quiet_nan;
+            const auto block = test.field.graph->block_of(test.field.value);
+            const std::vector<math::Interval> box(point.begin(), point.end());
+            const double value = meaning<double>(op, point, block);
+            defined += value == value || !meaning<math::Interval>(op, box, block).maybe_undefined;
+        }
+        CHECK(defined == 0);
+    }
+}
+
 TEST_CASE("every number of points gives the same values") {
     RandomField maker(3, {});
     const Field field = maker.make();
