@@ -101,6 +101,7 @@ Interval operator/(Interval a, Interval b) {
     if (has_zero(b)) return {-infinity, infinity, undefined_too(a, b) || clash};
     if (is_infinite(a) && is_infinite(b)) return Interval::empty();
     Corners c;
+    if (is_infinite(b)) c.add(0.0, true);  // a finite one over it; both ends of a may be infinite
     add_quotient(c, a.lo, b.lo);
     add_quotient(c, a.lo, b.hi);
     add_quotient(c, a.hi, b.lo);
