@@ -292,3 +292,10 @@ TEST_CASE("intervals of R-functions keep the sign of min and max") {
     }
     CHECK(wrong == 0);
 }
+
+TEST_CASE("the whole line over one infinity") {
+    const Interval one(fm::infinity, fm::infinity);
+    const Interval c = Interval::entire() / one;
+    CHECK(c.contains(0.0));    // any finite number over infinity
+    CHECK(c.maybe_undefined);  // infinity over infinity
+}
