@@ -20,8 +20,11 @@ AutomaticBounds bounds_of(test::FunctionField field, const BoundsOptions& option
 }  // namespace
 
 TEST_CASE("a small, a large and a far sphere get a tight box") {
-    for (const auto& [radius, x] :
-         {std::pair{1.0, 0.0}, {0.05, 3.0}, {9.99, 0.0}, {700.0, 100.0}, {2.0, 9.0}}) {
+    struct Ball {
+        double radius, x;
+    };
+    for (const Ball ball : {Ball{1, 0}, {0.05, 3}, {9.99, 0}, {700, 100}, {2, 9}}) {
+        const double radius = ball.radius, x = ball.x;
         CAPTURE(radius);
         const AutomaticBounds b = bounds_of(generic_field(sphere_function(radius, x)));
         CHECK_FALSE(b.unbounded);
