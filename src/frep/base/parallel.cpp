@@ -5,6 +5,7 @@
 #include <vector>
 
 #ifdef FREP_PARALLEL_TBB
+#include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 #endif
@@ -24,6 +25,9 @@ void parallel_for(const Job& job, std::size_t count, const std::function<void(st
         return;
     }
 #ifdef FREP_PARALLEL_TBB
+    // Without it more threads than cores are refused, with a warning on the terminal.
+    const tbb::global_control allowed(tbb::global_control::max_allowed_parallelism,
+                                      static_cast<std::size_t>(threads));
     tbb::task_arena arena(threads);
     arena.execute([&] {
         tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
