@@ -113,14 +113,14 @@ NodeId Lowerer::object_call(const ExpressionNode& node) {
             ? caller.arrays[arrays[2]]
             : Items(std::vector<NodeId>(static_cast<std::size_t>(callee.attributes()), constant(0)));
     const NodeId result =
-        inline_object(node.symbol, caller.arrays[arrays[0]], caller.arrays[arrays[1]], attributes, node.span);
+        inline_object(node.symbol, caller.arrays[arrays[0]], caller.arrays[arrays[1]], attributes);
     // inline_object may have moved the frames
     if (passes_attributes) frame().arrays[arrays[2]] = attributes;
     if (shares_attributes) frame().arrays[array_s] = attributes;
     return result;
 }
 
-NodeId Lowerer::inline_object(std::uint32_t object, Items x, Items a, Items& s, Span span) {
+NodeId Lowerer::inline_object(std::uint32_t object, Items x, Items a, Items& s) {
     std::vector<NodeId> arguments(x.all());
     arguments.insert(arguments.end(), a.all().begin(), a.all().end());
     arguments.insert(arguments.end(), s.all().begin(), s.all().end());
@@ -140,7 +140,6 @@ NodeId Lowerer::inline_object(std::uint32_t object, Items x, Items a, Items& s, 
              "combine some of the objects");
         return constant(0);
     }
-    static_cast<void>(span);
     const std::size_t statements = in_region() ? target_.region->statements.size() : 0;
     const std::size_t arrays_before = in_region() ? target_.region->arrays.size() : 0;
     const std::int64_t guarded_before = guarded_uses_;

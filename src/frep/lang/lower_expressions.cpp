@@ -134,13 +134,12 @@ NodeId Lowerer::chain(const ExpressionNode& node) {
     const std::size_t last = base + node.operands.size() - 1;
     NodeId value = pending_[last];
     for (std::size_t i = 0; i < node.operators.size(); ++i)
-        value = combine(node.operators[i], value, pending_[last - i - 1], node.operator_spans[i]);
+        value = combine(node.operators[i], value, pending_[last - i - 1]);
     pending_.resize(base);
     return value;
 }
 
-NodeId Lowerer::combine(Operator op, NodeId a, NodeId b, Span span) {
-    static_cast<void>(span);
+NodeId Lowerer::combine(Operator op, NodeId a, NodeId b) {
     switch (op) {
         case Operator::add:
             return make(Op::add, {a, b});

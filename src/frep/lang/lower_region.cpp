@@ -170,16 +170,15 @@ void Lowerer::flush(const Effects* forced, Moves moves) {
     add_statement(std::move(statement));
 }
 
-bool Lowerer::may_nest(Span span) {
+bool Lowerer::may_nest() {
     if (target_.nesting < Region::nesting_limit) return true;
-    static_cast<void>(span);
     stop("HF103", fmt::format("more than {} loops and branches inside one another", Region::nesting_limit),
          "use fewer levels of loops and calls");
     return false;
 }
 
 void Lowerer::region_loop(const StatementNode& statement, StatementId id) {
-    if (!may_nest(statement.span)) return;
+    if (!may_nest()) return;
     const Effects effects = effects_.of_statement(*frame().object, id);
     flush(&effects);
     const NodeId first = evaluate(statement.value);
@@ -213,7 +212,7 @@ void Lowerer::restore_frames(std::vector<Frame> frames) {
 }
 
 void Lowerer::region_branch(const StatementNode& statement, NodeId condition) {
-    if (!may_nest(statement.span)) return;
+    if (!may_nest()) return;
     Effects effects = effects_.of_statements(*frame().object, statement.first);
     effects.merge(effects_.of_statements(*frame().object, statement.second));
     const std::uint32_t cell = new_cell();

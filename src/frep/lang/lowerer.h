@@ -76,7 +76,7 @@ class Lowerer {
     NodeId read_item(const ExpressionNode& node);
     NodeId unary(const ExpressionNode& node);
     NodeId chain(const ExpressionNode& node);
-    NodeId combine(Operator op, NodeId a, NodeId b, Span span);
+    NodeId combine(Operator op, NodeId a, NodeId b);
     NodeId builtin(const ExpressionNode& node);
     /// Evaluates operands from last to first onto pending_; answers where the first one lies.
     std::size_t push_operands(const std::vector<ExpressionId>& operands);
@@ -89,7 +89,7 @@ class Lowerer {
     // calls (lower_calls.cpp)
     NodeId library_call(const ExpressionNode& node);
     NodeId object_call(const ExpressionNode& node);
-    NodeId inline_object(std::uint32_t object, Items x, Items a, Items& s, Span span);
+    NodeId inline_object(std::uint32_t object, Items x, Items a, Items& s);
     /// The content of a file that the model names; one that cannot be read is an error at `span`.
     Result<std::string> read_file(std::string_view name, Span span);
     bool all_assigned(const Items& items, const ArrayInfo& info, Span span);
@@ -133,7 +133,7 @@ class Lowerer {
     std::uint32_t new_cell() { return target_.region->cell_count++; }
     std::uint32_t home_of_array(Frame& frame, std::size_t array);
     void add_statement(RegionStatement statement);
-    bool may_nest(Span span);
+    bool may_nest();
 
     // bookkeeping
     Frame& frame() { return frames_.back(); }
