@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "box.h"
 #include "budget.h"
 #include "command_line.h"
 #include "mesh_options.h"
@@ -16,34 +17,6 @@
 namespace frep::cli {
 
 namespace {
-
-std::string side_list(const std::array<bool, 6>& sides) {
-    std::string out;
-    for (std::size_t s = 0; s < 6; ++s)
-        if (sides[s]) out += fmt::format("{}{}", out.empty() ? "" : ", ", side_names()[s]);
-    return out;
-}
-
-/// The box of the model's `--@ bounds` line in space: an axis takes the pair of the coordinate that it
-/// carries. Nothing when there is no line or an axis in use has no pair.
-std::optional<Box3> annotated_bounds(const PreparedModel& prepared) {
-    const std::vector<double>& pairs = prepared.model.program().annotations.bounds;
-    if (pairs.empty()) return std::nullopt;
-    const auto& coordinates = prepared.map.coordinates;
-    double low[3] = {-1, -1, -1}, high[3] = {1, 1, 1};
-    for (int axis = 0; axis < 3; ++axis) {
-        for (std::size_t i = 0; i < coordinates.size(); ++i) {
-            if (coordinates[i].axis != axis) continue;
-            const std::size_t pair = pairs.size() == 2 ? 0 : i;
-            if (2 * pair + 1 >= pairs.size()) return std::nullopt;
-            low[axis] = pairs[2 * pair];
-            high[axis] = pairs[2 * pair + 1];
-            break;
-        }
-        if (!(low[axis] < high[axis])) return std::nullopt;
-    }
-    return Box3{{low[0], low[1], low[2]}, {high[0], high[1], high[2]}};
-}
 
 class MeshRun {
   public:
@@ -57,7 +30,9 @@ class MeshRun {
         if (!evaluator) return fail(evaluator.error());
         auto sampled = make_sampled_field(std::move(*evaluator), prepared_.map, plan_.iso);
         if (!sampled) return fail(sampled.error());
-        if (const int code = choose_bounds(**sampled)) return code;
+        const auto box = choose_box(prepared_, plan_.bounds, **sampled, job_);
+        if (!box) return fail(box.error());
+        plan_.contour.bounds = *box;
         const auto result = contour(**sampled);
         if (!result) return fail(result.error());
         warn(*result);
@@ -65,23 +40,6 @@ class MeshRun {
     }
 
   private:
-    int choose_bounds(SampledField& field) {
-        if (!plan_.bounds) plan_.bounds = annotated_bounds(prepared_);
-        if (plan_.bounds) {
-            plan_.contour.bounds = *plan_.bounds;
-            return exit_ok;
-        }
-        const auto found = automatic_bounds(field, {}, job_);
-        if (!found) return fail(found.error());
-        plan_.contour.bounds = found->box;
-        if (found->unbounded)
-            print_warning(
-                fmt::format("no bounds found: the shape may reach beyond 10000 at {}; the box is "
-                            "-10..10 (--bounds states another)",
-                            side_list(found->reaches)));
-        return exit_ok;
-    }
-
     Result<ContourResult> contour(const SampledField& field) {
         ProgressBar bar("meshing");
         job_.on_progress = [&bar](double share) { bar.update(share); };

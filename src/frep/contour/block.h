@@ -11,7 +11,7 @@
 
 #include "frep/contour/grid.h"
 #include "frep/contour/octree.h"
-#include "frep/contour/sampled_field.h"
+#include "frep/eval/sampled_field.h"
 
 namespace frep::contouring {
 

@@ -9,7 +9,7 @@
 
 #include "frep/base/job.h"
 #include "frep/base/result.h"
-#include "frep/contour/sampled_field.h"
+#include "frep/eval/sampled_field.h"
 #include "frep/math/vec.h"
 
 namespace frep {

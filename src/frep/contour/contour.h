@@ -13,7 +13,7 @@
 #include "frep/base/job.h"
 #include "frep/base/result.h"
 #include "frep/contour/grid.h"
-#include "frep/contour/sampled_field.h"
+#include "frep/eval/sampled_field.h"
 #include "frep/geom/mesh.h"
 
 namespace frep {

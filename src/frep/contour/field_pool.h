@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "frep/contour/sampled_field.h"
+#include "frep/eval/sampled_field.h"
 
 namespace frep::contouring {
 

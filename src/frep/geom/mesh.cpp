@@ -37,6 +37,7 @@ double written(double value, bool as_float32) {
 
 bool is_valid(const Mesh& mesh) {
     if (!mesh.normals.empty() && mesh.normals.size() != mesh.vertices.size()) return false;
+    if (!mesh.colors.empty() && mesh.colors.size() != mesh.vertices.size()) return false;
     if (mesh.vertices.size() > no_vertex) return false;
     for (const Triangle& t : mesh.triangles) {
         for (const std::uint32_t v : t) {
@@ -49,10 +50,11 @@ bool is_valid(const Mesh& mesh) {
 Mesh merge_equal_positions(const Mesh& mesh, const MergeOptions& options) {
     FREP_CHECK(is_valid(mesh));
     const std::size_t count = mesh.vertices.size();
-    const bool with_normals = !mesh.normals.empty();
+    const bool with_normals = !mesh.normals.empty(), with_colors = !mesh.colors.empty();
     Mesh merged;
     merged.vertices.reserve(count);
     if (with_normals) merged.normals.reserve(count);
+    if (with_colors) merged.colors.reserve(count);
     std::vector<std::uint32_t> table(std::bit_ceil(2 * count + 2), no_vertex);
     const std::size_t mask = table.size() - 1;
     std::vector<std::uint32_t> target(count);
@@ -67,6 +69,7 @@ Mesh merge_equal_positions(const Mesh& mesh, const MergeOptions& options) {
             table[slot] = static_cast<std::uint32_t>(merged.vertices.size());
             merged.vertices.push_back(p);
             if (with_normals) merged.normals.push_back(mesh.normals[i]);
+            if (with_colors) merged.colors.push_back(mesh.colors[i]);
         }
         target[i] = table[slot];
     }

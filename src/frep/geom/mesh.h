@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "frep/geom/color.h"
 #include "frep/math/vec.h"
 
 namespace frep {
@@ -14,15 +15,17 @@ namespace frep {
 /// Three indices into Mesh::vertices.
 using Triangle = std::array<std::uint32_t, 3>;
 
-/// A triangle mesh in model units. `normals` is empty or holds one outward unit normal a vertex.
+/// A triangle mesh in model units. `normals` is empty or holds one outward unit normal a vertex; `colors` is
+/// empty or holds one color a vertex.
 struct Mesh {
     std::vector<Vec3> vertices;
     std::vector<Vec3> normals;
+    std::vector<Color> colors;
     std::vector<Triangle> triangles;
 };
 
-/// True when every index of every triangle names a vertex and `normals` is empty or as long as `vertices`.
-/// Every verb on meshes asks for it.
+/// True when every index of every triangle names a vertex and `normals` and `colors` are empty or as long as
+/// `vertices`. Every verb on meshes asks for it.
 bool is_valid(const Mesh& mesh);
 
 struct MergeOptions {
@@ -30,8 +33,8 @@ struct MergeOptions {
 };
 
 /// `mesh` with vertices at equal positions merged into the first of them (-0 equals +0) and the triangles
-/// dropped that name a vertex twice after that. Vertices keep their order; their normal is that of the first.
-/// Vertices that no triangle names stay.
+/// dropped that name a vertex twice after that. Vertices keep their order; their normal and color are
+/// those of the first. Vertices that no triangle names stay.
 Mesh merge_equal_positions(const Mesh& mesh, const MergeOptions& options = {});
 
 /// For every vertex the unit mean of its triangles' normals, weighted by area (the cross products summed in

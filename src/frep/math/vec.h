@@ -25,6 +25,16 @@ constexpr Vec3 cross(Vec3 a, Vec3 b) {
 /// The Euclidean length; may overflow above 1e154.
 inline double length(Vec3 a) { return __builtin_sqrt(dot(a, a)); }
 
+/// A point or a vector of the plane, in model units.
+struct Vec2 {
+    double x = 0, y = 0;
+
+    friend constexpr Vec2 operator+(Vec2 a, Vec2 b) { return {a.x + b.x, a.y + b.y}; }
+    friend constexpr Vec2 operator-(Vec2 a, Vec2 b) { return {a.x - b.x, a.y - b.y}; }
+    friend constexpr Vec2 operator*(Vec2 a, double s) { return {a.x * s, a.y * s}; }
+    friend constexpr bool operator==(Vec2 a, Vec2 b) { return a.x == b.x && a.y == b.y; }
+};
+
 /// An axis-parallel box from `min` to `max`.
 struct Box3 {
     Vec3 min, max;

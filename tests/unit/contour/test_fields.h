@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "frep/contour/sampled_field.h"
+#include "frep/eval/sampled_field.h"
 #include "frep/math/interval.h"
 
 namespace frep::test {

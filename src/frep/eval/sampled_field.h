@@ -1,7 +1,7 @@
-// SampledField: what contouring asks of a field: values, gradients and signs over boxes in 3-D space, in
-// batches. The adaptor over eval's Evaluator puts a model of n coordinates into space (`--map`: a coordinate
-// is an axis or frozen) and shifts by the iso value. One object serves one thread; clone() makes one for
-// another. Tested by tests/unit/contour/sampled_field_test.cpp.
+// SampledField: what meshes and pictures ask of a field: values, gradients, attributes and signs over boxes
+// in 3-D space, in batches. The adaptor over eval's Evaluator puts a model of n coordinates into space
+// (`--map`: a coordinate is an axis or frozen) and shifts by the iso value. One object serves one thread;
+// clone() makes one for another. Tested by tests/unit/eval/sampled_field_test.cpp.
 #pragma once
 
 #include <cstddef>
@@ -41,6 +41,11 @@ class SampledField {
     virtual void values(const PointSpans& points, std::span<double> out) = 0;
     /// values[p] = F and out.*[p] = its partial derivatives by x, y, z.
     virtual void gradients(const PointSpans& points, std::span<double> values, const GradientSpans& out) = 0;
+    /// The attributes s[1], s[2], ... that attributes() computes.
+    virtual std::size_t attribute_count() const { return 0; }
+    /// out[k][p] = attribute k (0 = s[1]) at point p, for the first out.size() <= attribute_count() of them;
+    /// NaN where undefined.
+    virtual void attributes(const PointSpans& points, std::span<const std::span<double>> out);
     /// out[b] = the signs that F may take in the closed box b.
     virtual void ranges(std::span<const Box3> boxes, std::span<SignRange> out) = 0;
 };

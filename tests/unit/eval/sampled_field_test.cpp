@@ -1,6 +1,6 @@
-// Tests of contour/sampled_field.h with an evaluator written for the test: coordinates mapped and frozen, the
+// Tests of eval/sampled_field.h with an evaluator written for the test: coordinates mapped and frozen, the
 // iso value, attributes set aside, intervals and gradients carried along.
-#include "frep/contour/sampled_field.h"
+#include "frep/eval/sampled_field.h"
 
 #include <doctest/doctest.h>
 
@@ -90,6 +90,18 @@ TEST_CASE("an axis may feed several coordinates or none") {
     CHECK(gx[0] == 1011);
     CHECK(gy[0] == 0);
     CHECK(gz[0] == 0);
+}
+
+TEST_CASE("attributes, all or the first ones") {
+    const auto field = mapped(AxisMap::standard(4));
+    CHECK(field->attribute_count() == 1);
+    const std::vector<double> x{1, 2}, y{0, 0}, z{0, 0};
+    std::vector<double> first(2);
+    const std::vector<std::span<double>> columns{first};
+    field->attributes({x, y, z}, columns);
+    CHECK(first[0] == 7);
+    CHECK(first[1] == 7);
+    field->attributes({x, y, z}, {});
 }
 
 TEST_CASE("signs over boxes") {

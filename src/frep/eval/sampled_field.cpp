@@ -1,5 +1,5 @@
 // The adaptor from eval's Evaluator to SampledField; see sampled_field.h.
-#include "frep/contour/sampled_field.h"
+#include "frep/eval/sampled_field.h"
 
 #include <fmt/format.h>
 
@@ -23,9 +23,9 @@ class MappedField final : public SampledField {
         const std::size_t count = points.size();
         set_inputs(points);
         const auto outputs = static_cast<std::size_t>(evaluator_->outputs());
-        attributes_.resize(outputs > 1 ? (outputs - 1) * count : 0);
+        unused_.resize((outputs - 1) * count);
         outputs_.assign(1, out.data());
-        for (std::size_t k = 1; k < outputs; ++k) outputs_.push_back(attributes_.data() + (k - 1) * count);
+        for (std::size_t k = 1; k < outputs; ++k) outputs_.push_back(unused_.data() + (k - 1) * count);
         evaluator_->values(inputs_, count, outputs_);
         for (std::size_t p = 0; p < count; ++p) out[p] -= iso_;
     }
@@ -47,6 +47,22 @@ class MappedField final : public SampledField {
             for (std::size_t p = 0; p < count; ++p) axis[p] += outputs_[i][p];
         }
         for (std::size_t p = 0; p < count; ++p) values[p] -= iso_;
+    }
+
+    std::size_t attribute_count() const override {
+        return static_cast<std::size_t>(evaluator_->outputs()) - 1;
+    }
+
+    void attributes(const PointSpans& points, std::span<const std::span<double>> out) override {
+        FREP_CHECK(out.size() <= attribute_count());
+        const std::size_t count = points.size();
+        set_inputs(points);
+        unused_.resize((attribute_count() + 1 - out.size()) * count);
+        outputs_.assign(1, unused_.data());
+        for (const std::span<double>& column : out) outputs_.push_back(column.data());
+        for (std::size_t k = 1; outputs_.size() <= attribute_count(); ++k)
+            outputs_.push_back(unused_.data() + k * count);
+        evaluator_->values(inputs_, count, outputs_);
     }
 
     void ranges(std::span<const Box3> boxes, std::span<SignRange> out) override {
@@ -102,7 +118,7 @@ class MappedField final : public SampledField {
     std::unique_ptr<Evaluator> evaluator_;
     AxisMap map_;
     double iso_;
-    std::vector<double> frozen_, attributes_, partials_;
+    std::vector<double> frozen_, unused_, partials_;
     std::vector<const double*> inputs_;
     std::vector<double*> outputs_;
     std::vector<math::Interval> intervals_;
@@ -112,6 +128,10 @@ class MappedField final : public SampledField {
 bool is_finite(double v) { return v - v == 0; }
 
 }  // namespace
+
+void SampledField::attributes(const PointSpans&, std::span<const std::span<double>> out) {
+    FREP_CHECK(out.empty());
+}
 
 AxisMap AxisMap::standard(int count) {
     AxisMap map;
