@@ -28,6 +28,7 @@
 #include "frep/geom/scene.h"
 #include "frep/io/file.h"
 #include "frep/io/mesh_format.h"
+#include "frep/io/png.h"
 #include "frep/lang/explain.h"
 #include "frep/lang/limits.h"
 #include "frep/lang/model.h"
