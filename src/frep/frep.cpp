@@ -58,4 +58,14 @@ Status write(const std::string& path, const Mesh& mesh, const MeshEncodeOptions&
     return write_file(path, *bytes);
 }
 
+Status write(const std::string& path, const Scene& scene, const MeshEncodeOptions& options) {
+    const auto format = mesh_format_from_path(path);
+    if (!format) return format.error();
+    MeshEncodeOptions named = options;
+    if (named.stem.empty()) named.stem = stem_of_path(path);
+    const auto files = encode_scene(scene, *format, named);
+    if (!files) return files.error();
+    return write_files(path, *files);
+}
+
 }  // namespace frep

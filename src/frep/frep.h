@@ -26,8 +26,10 @@
 #include "frep/geom/mesh_check.h"
 #include "frep/geom/polyline.h"
 #include "frep/geom/scene.h"
+#include "frep/io/drawing_format.h"
 #include "frep/io/file.h"
 #include "frep/io/mesh_format.h"
+#include "frep/io/slice_format.h"
 #include "frep/io/png.h"
 #include "frep/lang/explain.h"
 #include "frep/lang/limits.h"
@@ -56,7 +58,9 @@ ReadFile files_of_folder(std::string folder);
 /// The surface of a field of up to three coordinates (further ones frozen at 0) as a triangle mesh.
 Result<ContourResult> contour(const Field& field, const ContourOptions& options = {}, const Job& job = {});
 
-/// Writes a mesh; the format follows the extension (.off .ply .stl). Errors: invalid_argument, io.
+/// Writes a mesh, or a scene with its side files; the format follows the extension (mesh_format_from_path).
+/// Errors: invalid_argument, over_limit, io.
 Status write(const std::string& path, const Mesh& mesh, const MeshEncodeOptions& options = {});
+Status write(const std::string& path, const Scene& scene, const MeshEncodeOptions& options = {});
 
 }  // namespace frep

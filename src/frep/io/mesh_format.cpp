@@ -161,8 +161,11 @@ struct Extension {
     std::string_view name;
     MeshFormat format;
 };
-constexpr std::array<Extension, 3> extensions{
-    {{".off", MeshFormat::off}, {".ply", MeshFormat::ply}, {".stl", MeshFormat::stl}}};
+constexpr std::array extensions{Extension{".off", MeshFormat::off}, Extension{".ply", MeshFormat::ply},
+                                Extension{".stl", MeshFormat::stl}, Extension{".obj", MeshFormat::obj},
+                                Extension{".glb", MeshFormat::glb}, Extension{".wrl", MeshFormat::vrml},
+                                Extension{".x3d", MeshFormat::x3d}, Extension{".3mf", MeshFormat::threemf},
+                                Extension{".pov", MeshFormat::pov}};
 
 }  // namespace
 
@@ -191,9 +194,17 @@ Result<std::string> encode_mesh(const Mesh& mesh, MeshFormat format, const MeshE
         case MeshFormat::ply:
             return options.ascii ? encode_ply_text(mesh) : encode_ply_binary(mesh);
         case MeshFormat::stl:
+            return options.ascii ? encode_stl_text(mesh) : encode_stl_binary(mesh);
+        default:
             break;
     }
-    return options.ascii ? encode_stl_text(mesh) : encode_stl_binary(mesh);
+    return Error{ErrorKind::invalid_argument, "this format is not written yet"};
+}
+
+Result<EncodedFiles> encode_scene(const Scene& scene, MeshFormat format, const MeshEncodeOptions& options) {
+    auto bytes = encode_mesh(merged(scene), format, options);
+    if (!bytes) return bytes.error();
+    return EncodedFiles{std::move(*bytes), {}};
 }
 
 }  // namespace frep
