@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <limits>
 
 #include "frep/base/parallel.h"
 #include "frep/contour/cell.h"
@@ -19,13 +20,14 @@ struct TaskTriangles {
     std::vector<Triangle> triangles;
     std::vector<Vec3> middles;
     std::vector<Vec3> middle_normals;
+    std::vector<std::vector<double>> middle_attributes;  ///< columns
 };
 
 class Assembly {
   public:
     Assembly(const std::vector<std::uint64_t>& codes, std::vector<std::unique_ptr<BlockMesh>> parts,
-             FieldPool& fields, const Job& job)
-        : fields_(fields), job_(job) {
+             std::size_t attributes, FieldPool& fields, const Job& job)
+        : fields_(fields), job_(job), attributes_(attributes) {
         for (std::size_t i = 0; i < codes.size(); ++i) {
             if (!parts[i]) continue;
             codes_.push_back(codes[i]);
@@ -33,7 +35,7 @@ class Assembly {
         }
     }
 
-    Result<Mesh> run() {
+    Result<AssembledMesh> run() {
         if (!number_nodes()) {
             return Error{ErrorKind::over_limit, "the mesh has more vertices than a 32-bit index can name"};
         }
@@ -50,7 +52,7 @@ class Assembly {
             return Error{ErrorKind::over_limit, "the mesh has more vertices than a 32-bit index can name"};
         }
         fill_missing_normals();
-        return std::move(mesh_);
+        return AssembledMesh{std::move(mesh_), std::move(attributes_)};
     }
 
   private:
@@ -75,6 +77,15 @@ class Assembly {
             part->positions = {};
             part->normals = {};
         }
+        const std::size_t wanted = attributes_.size();
+        for (std::size_t k = 0; k < wanted; ++k) {
+            attributes_[k].reserve(nodes_);
+            for (const auto& part : parts_) {
+                for (std::size_t i = k; i < part->attributes.size(); i += wanted)
+                    attributes_[k].push_back(part->attributes[i]);
+            }
+        }
+        for (const auto& part : parts_) part->attributes = {};
     }
 
     /// The blocks that the nodes of block i may lie in: itself and the next ones; -1 where there is none.
@@ -113,6 +124,7 @@ class Assembly {
         std::size_t nodes = 0;
         for (std::size_t i = task * blocks_a_task; i < end; ++i) nodes += parts_[i]->polygons.size();
         out.triangles.reserve(nodes / 2);  // quadrilaterals make up about the half
+        out.middle_attributes.resize(attributes_.size());
         for (std::size_t i = task * blocks_a_task; i < end; ++i) cut_block(i, out);
         out.middle_normals.resize(out.middles.size());
         if (!out.middles.empty()) take_middle_normals(out);
@@ -143,9 +155,24 @@ class Assembly {
                 Vec3 sum;
                 for (std::size_t k = 0; k < count; ++k) sum = sum + mesh_.vertices[vertices[k]];
                 out.middles.push_back(sum / static_cast<double>(count));
+                for (std::size_t k = 0; k < attributes_.size(); ++k)
+                    out.middle_attributes[k].push_back(mean_attribute(k, {vertices.data(), count}));
             }
             count = 0;
         }
+    }
+
+    /// The mean of the defined values; NaN if there is none.
+    double mean_attribute(std::size_t k, std::span<const std::uint32_t> vertices) const {
+        double sum = 0;
+        std::size_t defined = 0;
+        for (const std::uint32_t v : vertices) {
+            const double value = attributes_[k][v];
+            if (value != value) continue;
+            sum += value;
+            ++defined;
+        }
+        return defined > 0 ? sum / static_cast<double>(defined) : std::numeric_limits<double>::quiet_NaN();
     }
 
     void take_middle_normals(TaskTriangles& out) {
@@ -183,6 +210,10 @@ class Assembly {
             }
             mesh_.vertices.insert(mesh_.vertices.end(), task.middles.begin(), task.middles.end());
             mesh_.normals.insert(mesh_.normals.end(), task.middle_normals.begin(), task.middle_normals.end());
+            for (std::size_t k = 0; k < attributes_.size(); ++k) {
+                const std::vector<double>& column = task.middle_attributes[k];
+                attributes_[k].insert(attributes_[k].end(), column.begin(), column.end());
+            }
             task = {};
         }
         return true;
@@ -206,14 +237,16 @@ class Assembly {
     std::vector<std::uint32_t> bases_;
     std::uint32_t nodes_ = 0;
     Mesh mesh_;
+    std::vector<std::vector<double>> attributes_;
     std::atomic<bool> contradiction_{false};
 };
 
 }  // namespace
 
-Result<Mesh> assemble(const std::vector<std::uint64_t>& codes, std::vector<std::unique_ptr<BlockMesh>> parts,
-                      FieldPool& fields, const Job& job) {
-    return Assembly(codes, std::move(parts), fields, job).run();
+Result<AssembledMesh> assemble(const std::vector<std::uint64_t>& codes,
+                               std::vector<std::unique_ptr<BlockMesh>> parts, std::size_t attributes,
+                               FieldPool& fields, const Job& job) {
+    return Assembly(codes, std::move(parts), attributes, fields, job).run();
 }
 
 }  // namespace frep::contouring

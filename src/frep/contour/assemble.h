@@ -15,10 +15,19 @@
 
 namespace frep::contouring {
 
-/// Joins the blocks' parts: codes[i] is the code of parts[i], ascending; parts may be null. The parts are
-/// used up. Errors: over_limit for more than 2^32 - 2 vertices, cancelled, invalid_argument when the interval
-/// and the point values of the field contradict each other.
-Result<Mesh> assemble(const std::vector<std::uint64_t>& codes, std::vector<std::unique_ptr<BlockMesh>> parts,
-                      FieldPool& fields, const Job& job);
+struct AssembledMesh {
+    Mesh mesh;
+    std::vector<std::vector<double>>
+        attributes;  ///< one column an attribute, a number a vertex; NaN: undefined
+};
+
+/// Joins the blocks' parts: codes[i] is the code of parts[i], ascending; parts may be null, and their nodes
+/// carry `attributes` numbers each. A vertex in the middle of a polygon takes the mean of the defined
+/// attributes of the polygon's nodes, because F may be < 0 there. The parts are used up. Errors: over_limit
+/// for more than 2^32 - 2 vertices, cancelled, invalid_argument when the interval and the point values of the
+/// field contradict each other.
+Result<AssembledMesh> assemble(const std::vector<std::uint64_t>& codes,
+                               std::vector<std::unique_ptr<BlockMesh>> parts, std::size_t attributes,
+                               FieldPool& fields, const Job& job);
 
 }  // namespace frep::contouring

@@ -41,7 +41,7 @@ Vec3 BlockContourer::sample_point(const Local& l) const {
 
 void BlockContourer::Brackets::clear() {
     lower.clear();
-    for (std::vector<double>* v : {&start, &length, &inside, &outside}) v->clear();
+    for (std::vector<double>* v : {&start, &end, &length, &inside, &outside}) v->clear();
     wall.clear();
     node.clear();
 }
@@ -52,10 +52,13 @@ std::unique_ptr<BlockMesh> BlockContourer::contour(std::uint64_t code) {
     mesh_.edges.clear();
     mesh_.positions.clear();
     mesh_.normals.clear();
+    mesh_.attributes.clear();
     mesh_.polygons.clear();
+    cap_nodes_.clear();
     for (Brackets& b : brackets_) b.clear();
     collect_nodes();
     bisect();
+    take_attributes();
     set_positions();
     take_normals();
     add_cells();
@@ -173,7 +176,8 @@ void BlockContourer::add_node(const Local& lower, std::size_t axis) {
     Brackets& b = brackets_[axis];
     b.lower.push_back(p);
     b.start.push_back(start);
-    b.length.push_back(component(sample_point(upper), axis) - start);
+    b.end.push_back(component(sample_point(upper), axis));
+    b.length.push_back(b.end.back() - start);
     b.inside.push_back(lower_is_inside ? 0 : 1);
     b.outside.push_back(lower_is_inside ? 1 : 0);
     b.wall.push_back(outside_value != outside_value ? 1 : 0);
@@ -207,6 +211,7 @@ void BlockContourer::add_cap_node(const Local& inside) {
         const double high = e == grid_.cells[a] + 1 ? 1 : 0;
         set_component(normal, a, low + high);
     }
+    cap_nodes_.push_back(static_cast<std::uint32_t>(mesh_.positions.size()));
     mesh_.positions.push_back(sample_point(inside));
     mesh_.normals.push_back(normal / length(normal));
 }
@@ -249,6 +254,41 @@ void BlockContourer::bisect() {
             }
         }
     }
+}
+
+/// Attributes at the inside ends of the brackets, where F >= 0: library functions that set colors write only
+/// there. Uses the columns of bisect(), whose order is that of the brackets; cap nodes follow.
+void BlockContourer::take_attributes() {
+    const std::size_t wanted = options_.attributes;
+    if (wanted == 0 || mesh_.edges.empty()) return;
+    std::size_t p = 0;
+    for (std::size_t a = 0; a < 3; ++a) {
+        const Brackets& b = brackets_[a];
+        for (std::size_t i = 0; i < b.size(); ++i) {
+            column(a)[p++] = b.inside[i] == 1 ? b.end[i] : b.start[i] + b.inside[i] * b.length[i];
+        }
+    }
+    const std::size_t bisected = p;
+    for (std::size_t a = 0; a < 3; ++a) {
+        column(a).resize(bisected);
+        for (const std::uint32_t node : cap_nodes_) column(a).push_back(component(mesh_.positions[node], a));
+    }
+    const std::size_t count = x_.size();
+    attribute_columns_.resize(wanted * count);
+    std::vector<std::span<double>> columns;
+    for (std::size_t k = 0; k < wanted; ++k) columns.emplace_back(&attribute_columns_[k * count], count);
+    field_.attributes({x_, y_, z_}, columns);
+    mesh_.attributes.resize(wanted * mesh_.edges.size());
+    p = 0;
+    const auto store = [&](std::uint32_t node) {
+        for (std::size_t k = 0; k < wanted; ++k) mesh_.attributes[node * wanted + k] = columns[k][p];
+        ++p;
+    };
+    for (const Brackets& b : brackets_) {
+        for (const std::uint32_t node : b.node) store(node);
+    }
+    for (const std::uint32_t node : cap_nodes_) store(node);
+    for (std::size_t a = 0; a < 3; ++a) column(a).resize(bisected);
 }
 
 /// The inside ends become the nodes, kept away from the corners.
@@ -301,11 +341,20 @@ void BlockContourer::add_cells() {
             int here = across(begin[0]);
             for (l[0] = begin[0]; l[0] < end[0]; ++l[0]) {
                 const int next = across(l[0] + 1);
-                if (here + next != 0 && here + next != 8) add_cell(l);
+                if (here + next != 0 && here + next != 8 && !is_flat_cell(l)) add_cell(l);
                 here = next;
             }
         }
     }
+}
+
+bool BlockContourer::is_flat_cell(const Local& cell) const {
+    int layers = 0;
+    for (std::size_t a = 0; a < 3 && is_at_side_; ++a) {
+        const std::uint32_t e = with_layer(a, cell[a]);
+        if (e == 0 || e == grid_.cells[a] + 1) ++layers;
+    }
+    return layers >= 2;
 }
 
 void BlockContourer::add_cell(const Local& corner) {

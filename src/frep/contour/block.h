@@ -31,6 +31,7 @@ struct BlockMesh {
     std::vector<std::uint16_t> edges;  ///< ascending
     std::vector<Vec3> positions;
     std::vector<Vec3> normals;
+    std::vector<double> attributes;  ///< node after node, those asked for; NaN where undefined
     std::vector<PolygonNode> polygons;
 };
 
@@ -39,6 +40,7 @@ Vec3 outward_normal(Vec3 gradient);
 
 struct BlockOptions {
     bool cap = false;
+    std::size_t attributes = 0;  ///< attributes to take at the nodes, at most the field's attribute_count()
 };
 
 /// Contours blocks, one after the other; keeps its scratch memory between them. Serves one thread.
@@ -62,7 +64,8 @@ class BlockContourer {
     /// Edges of one direction being bisected, column by column. The bracket is kept as parameters 0..1.
     struct Brackets {
         std::vector<Vec3> lower;              ///< lower ends
-        std::vector<double> start, length;    ///< coordinate of the lower end and length, along the axis
+        std::vector<double> start, end;       ///< coordinates of the two ends, along the axis
+        std::vector<double> length;           ///< end - start
         std::vector<double> inside, outside;  ///< ends of the bracket
         std::vector<std::uint8_t> wall;       ///< 1: the outside end is undefined
         std::vector<std::uint32_t> node;      ///< its place in mesh_
@@ -90,6 +93,7 @@ class BlockContourer {
     void collect_nodes();
     void add_node(const Local& lower, std::size_t axis);
     void add_cap_node(const Local& inside);
+    void take_attributes();
     /// The edge whose node closes the shape at an inside sample of the box's boundary: its lower end and
     /// axis.
     Local cap_edge(const Local& inside, std::size_t& axis) const;
@@ -98,6 +102,8 @@ class BlockContourer {
     void set_positions();
     void take_normals();
     void add_cells();
+    /// A layer cell at an edge or a corner of the box: its nodes all lie on the edge, so it makes no polygon.
+    bool is_flat_cell(const Local& cell) const;
     void add_cell(const Local& corner);
     PolygonNode polygon_node(const Local& cell, std::uint8_t cell_edge) const;
     std::vector<double>& column(std::size_t axis) { return axis == 0 ? x_ : axis == 1 ? y_ : z_; }
@@ -113,6 +119,8 @@ class BlockContourer {
     std::array<std::uint8_t, lattice_size> inside_{};
     std::vector<double> x_, y_, z_, out_, gx_, gy_, gz_;
     std::array<Brackets, 3> brackets_;
+    std::vector<std::uint32_t> cap_nodes_;  ///< nodes that are samples
+    std::vector<double> attribute_columns_;
     BlockMesh mesh_;  ///< being built; keeps its memory
 };
 

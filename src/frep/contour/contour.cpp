@@ -20,6 +20,8 @@ using namespace contouring;
 constexpr std::size_t blocks_a_task = 16;
 /// Estimated peak memory for a vertex with its triangles: in its block, and in the mesh.
 constexpr std::size_t bytes_a_vertex = 140;
+/// And for an attribute of it: in its block, in the mesh, as a color.
+constexpr std::size_t bytes_an_attribute = 24;
 /// Estimated memory for a block that is looked at, most of which turn out empty.
 constexpr std::size_t bytes_a_block = 64;
 
@@ -36,6 +38,7 @@ Sampling sample_blocks(const Grid& grid, const std::vector<std::uint64_t>& block
     Sampling result;
     result.parts.resize(blocks.size());
     const std::size_t tasks = (blocks.size() + blocks_a_task - 1) / blocks_a_task;
+    const std::size_t vertex_bytes = bytes_a_vertex + options.attributes * bytes_an_attribute;
     std::atomic<std::size_t> vertices{0};
     std::atomic<bool> over_limit{false};
     std::size_t tasks_done = 0;
@@ -43,14 +46,14 @@ Sampling sample_blocks(const Grid& grid, const std::vector<std::uint64_t>& block
     parallel_for(job, tasks, [&](std::size_t t) {
         if (over_limit) return;
         const FieldPool::Lease field = fields.borrow();
-        BlockContourer contourer(grid, *field, {.cap = options.cap});
+        BlockContourer contourer(grid, *field, {.cap = options.cap, .attributes = options.attributes});
         std::size_t made = 0;
         const std::size_t end = std::min((t + 1) * blocks_a_task, blocks.size());
         for (std::size_t i = t * blocks_a_task; i < end; ++i) {
             result.parts[i] = contourer.contour(blocks[i]);
             if (result.parts[i]) made += result.parts[i]->edges.size();
         }
-        if ((vertices += made) > options.memory_limit / bytes_a_vertex) over_limit = true;
+        if ((vertices += made) > options.memory_limit / vertex_bytes) over_limit = true;
         const std::lock_guard lock(mutex);
         result.undefined.add(contourer.undefined);  // sums and minima: the order of arrival does not matter
         for (std::size_t s = 0; s < 6; ++s) result.touches[s] = result.touches[s] || contourer.touches[s];
@@ -74,8 +77,9 @@ Vec3 place_of(const UndefinedTally& tally, const Grid& grid) {
 
 }  // namespace
 
-Result<ContourResult> contour_cells(const SampledField& field, const ContourOptions& options,
-                                    const Job& job) {
+Result<ContourResult> contour_cells(const SampledField& field, const ContourOptions& given, const Job& job) {
+    ContourOptions options = given;
+    options.attributes = std::min(options.attributes, field.attribute_count());
     const Result<Grid> grid = make_grid(options.bounds, options.cells, options.cell_length);
     if (!grid) return grid.error();
     FieldPool fields(field);
@@ -89,11 +93,13 @@ Result<ContourResult> contour_cells(const SampledField& field, const ContourOpti
         return Error{ErrorKind::over_limit,
                      "the mesh would take more memory than the limit; use fewer cells"};
     }
-    Result<Mesh> mesh = assemble(octree->blocks, std::move(sampling.parts), fields, job);
+    Result<AssembledMesh> mesh =
+        assemble(octree->blocks, std::move(sampling.parts), options.attributes, fields, job);
     if (!mesh) return mesh.error();
 
     ContourResult result;
-    result.mesh = std::move(*mesh);
+    result.mesh = std::move(mesh->mesh);
+    result.attributes = std::move(mesh->attributes);
     result.grid = *grid;
     result.sampled_blocks = octree->blocks.size();
     sampling.undefined.add(octree->undefined);
@@ -102,6 +108,19 @@ Result<ContourResult> contour_cells(const SampledField& field, const ContourOpti
     for (std::size_t s = 0; s < 6; ++s) result.touches[s] = sampling.touches[s] || octree->touches[s];
     job.report(1);
     return result;
+}
+
+std::vector<Color> vertex_colors(const ContourResult& result, const Color& undefined) {
+    std::vector<Color> colors;
+    if (result.attributes.size() < 3) return colors;
+    const auto clamped = [](double v) { return v > 0 ? (v < 1 ? v : 1.0) : 0.0; };
+    colors.reserve(result.attributes[0].size());
+    for (std::size_t v = 0; v < result.attributes[0].size(); ++v) {
+        const double r = result.attributes[0][v], g = result.attributes[1][v], b = result.attributes[2][v];
+        const bool defined = r == r && g == g && b == b;
+        colors.push_back(defined ? Color{clamped(r), clamped(g), clamped(b)} : undefined);
+    }
+    return colors;
 }
 
 std::array<const char*, 6> side_names() { return {"-x", "+x", "-y", "+y", "-z", "+z"}; }

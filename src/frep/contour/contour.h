@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <vector>
 
 #include "frep/base/job.h"
 #include "frep/base/result.h"
@@ -23,12 +24,16 @@ struct ContourOptions {
     int cells = 96;          ///< cubic cells along the longest side
     double cell_length = 0;  ///< > 0: the side of a cell, in place of `cells`
     bool cap = false;        ///< close the shape where the box cuts it
-    bool prune = true;       ///< skip blocks proved empty or full by intervals; changes no byte of the result
+    /// Attributes s[1], s[2], ... to take at the vertices, as many as the field has of them. They are taken
+    /// at the inside end of the edge's bracket, a hair inside the surface.
+    std::size_t attributes = 0;
+    bool prune = true;  ///< skip blocks proved empty or full by intervals; changes no byte of the result
     std::size_t memory_limit = std::size_t{8} << 30;  ///< bytes that the run may take, estimated
 };
 
 struct ContourResult {
-    Mesh mesh;  ///< with outward unit normals
+    Mesh mesh;                                    ///< with outward unit normals
+    std::vector<std::vector<double>> attributes;  ///< a column for each, a number a vertex; NaN: undefined
     Grid grid;
     std::uint64_t undefined_points = 0;   ///< samples of the lattice where F is undefined
     std::optional<Vec3> first_undefined;  ///< the first of them, in block order
@@ -39,6 +44,10 @@ struct ContourResult {
 /// Errors: invalid_argument for bad bounds or cell sizes (see make_grid), over_limit for too many cells or
 /// vertices, or more memory than the limit; cancelled.
 Result<ContourResult> contour_cells(const SampledField& field, const ContourOptions& options, const Job& job);
+
+/// The colors of the vertices from attributes 0, 1, 2 as R, G, B, clamped to 0..1; `undefined` where one of
+/// the three has no value. Empty when there are fewer than three columns.
+std::vector<Color> vertex_colors(const ContourResult& result, const Color& undefined);
 
 /// The side names in the order of ContourResult::touches: "-x", "+x", ...
 std::array<const char*, 6> side_names();
