@@ -1,9 +1,9 @@
 // TriangleBvh: a binary tree of boxes over the triangles of a mesh, for questions about places: which boxes
 // overlap, which point of the surface is nearest, what does a ray hit first.
 // The tree splits at the median of the centroids along the longest side of their box, so it is balanced: its
-// depth is at most 33 and its shape depends on the mesh only. Distances from a point to a triangle:
-// C. Ericson, "Real-Time Collision Detection" (2005), 5.1.5. Rays: the watertight test of S. Woop, C. Benthin
-// and I. Wald (2013), in binary64: a ray through a common edge hits at least one of the two triangles.
+// depth is at most 32 and its shape depends on the mesh only, not on the threads that build it.
+// Rays: the watertight test of S. Woop, C. Benthin and I. Wald (2013), in binary64: a ray through a common
+// edge hits at least one of the two triangles.
 // Tested by tests/unit/geom/bvh_test.cpp.
 #pragma once
 
@@ -50,6 +50,7 @@ class TriangleBvh {
         std::uint32_t triangle = 0;  ///< index into Mesh::triangles
     };
 
+    /// A cancelled job leaves an incomplete tree: safe to ask, but wrong.
     explicit TriangleBvh(const Mesh& mesh, const Job& job = {});
 
     const Mesh& mesh() const { return *mesh_; }

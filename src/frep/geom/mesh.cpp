@@ -33,6 +33,10 @@ double written(double value, bool as_float32) {
     return kept + 0.0;  // -0 becomes +0
 }
 
+Vec3 written(const Vec3& p, bool as_float32) {
+    return {written(p.x, as_float32), written(p.y, as_float32), written(p.z, as_float32)};
+}
+
 }  // namespace
 
 bool is_valid(const Mesh& mesh) {
@@ -59,9 +63,7 @@ Mesh merge_equal_positions(const Mesh& mesh, const MergeOptions& options) {
     const std::size_t mask = table.size() - 1;
     std::vector<std::uint32_t> target(count);
     for (std::size_t i = 0; i < count; ++i) {
-        const Vec3& raw = mesh.vertices[i];
-        const Vec3 p{written(raw.x, options.as_float32), written(raw.y, options.as_float32),
-                     written(raw.z, options.as_float32)};
+        const Vec3 p = written(mesh.vertices[i], options.as_float32);
         std::size_t slot = position_hash(p) & mask;
         while (table[slot] != no_vertex && !same_bits(merged.vertices[table[slot]], p))
             slot = (slot + 1) & mask;
@@ -80,6 +82,13 @@ Mesh merge_equal_positions(const Mesh& mesh, const MergeOptions& options) {
         merged.triangles.push_back(moved);
     }
     return merged;
+}
+
+bool collapses(const Mesh& mesh, const Triangle& t, const MergeOptions& options) {
+    const Vec3 a = written(mesh.vertices[t[0]], options.as_float32);
+    const Vec3 b = written(mesh.vertices[t[1]], options.as_float32);
+    const Vec3 c = written(mesh.vertices[t[2]], options.as_float32);
+    return same_bits(a, b) || same_bits(b, c) || same_bits(c, a);
 }
 
 std::vector<Vec3> mean_normals(const Mesh& mesh) {

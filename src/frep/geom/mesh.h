@@ -37,6 +37,9 @@ struct MergeOptions {
 /// those of the first. Vertices that no triangle names stay.
 Mesh merge_equal_positions(const Mesh& mesh, const MergeOptions& options = {});
 
+/// True when two corners of the triangle `t` of `mesh` are at equal positions, so that merging drops it.
+bool collapses(const Mesh& mesh, const Triangle& t, const MergeOptions& options = {});
+
 /// For every vertex the unit mean of its triangles' normals, weighted by area (the cross products summed in
 /// triangle order); the zero vector where they cancel or no triangle names the vertex.
 std::vector<Vec3> mean_normals(const Mesh& mesh);

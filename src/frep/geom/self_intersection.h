@@ -37,7 +37,7 @@ struct SelfIntersections {
 };
 
 /// The self-intersections of `mesh`, which must be valid, after merging equal positions and dropping the
-/// triangles that collapse by that. Exact for binary32 coordinates, and for others with sizes between 1e-90
+/// triangles that collapse by that. Exact for binary32 coordinates, and for others with sizes between 1e-80
 /// and 1e90. Triangles with a coordinate that is not finite take no part. Time near n log n while
 /// few boxes overlap, and linear in the number of overlapping boxes; memory about 130 bytes a triangle.
 /// Errors: cancelled.
