@@ -1,6 +1,6 @@
 // Outlines of the plane as files for cutters, plotters and CAD programs.
 //   SVG  Scalable Vector Graphics 1.1 (W3C, 2011): one path, real size in millimetres, Y turned down.
-//   DXF  AutoCAD drawing exchange, release 12 (AC1009), text: a POLYLINE an outline, in model units.
+//   DXF  AutoCAD drawing exchange, release 12 (AC1009), text: a POLYLINE an outline, in millimetres.
 // Tested by tests/unit/io/drawing_format_test.cpp.
 #pragma once
 
@@ -34,8 +34,8 @@ struct DrawingOptions {
     double margin = 0;                 ///< SVG: empty border around the drawing, in millimetres
 };
 
-/// The outlines as a file's bytes; none gives a valid empty drawing. A line without points is left out.
-/// Errors: invalid_argument for a coordinate that is not finite or beyond binary32 in millimetres, or an
+/// The outlines as a file's bytes; none gives a valid empty drawing. A line of fewer than 2 points is left
+/// out. Errors: invalid_argument for a coordinate that is not finite or beyond binary32 in millimetres, or an
 /// option out of range.
 Result<std::string> encode_drawing(const std::vector<Polyline>& lines, DrawingFormat format,
                                    const DrawingOptions& options = {});

@@ -4,6 +4,7 @@
 
 #include <bit>
 #include <charconv>
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -17,7 +18,7 @@ template <class Number>
 void append_number(std::string& out, Number value) {
     char text[32];
     const std::to_chars_result end = std::to_chars(text, text + sizeof text, value);
-    out.append(text, end.ptr);
+    out.append(text, static_cast<std::size_t>(end.ptr - text));
 }
 
 /// Appends `value` as the shortest decimal of its binary32; zero without its sign.
@@ -30,7 +31,7 @@ inline void append_plain_real(std::string& out, double value) {
     char text[128];  // the smallest positive number of binary32 has 45 digits behind the point
     const float number = static_cast<float>(value) + 0.0f;
     const auto end = std::to_chars(text, text + sizeof text, number, std::chars_format::fixed);
-    out.append(text, end.ptr);
+    out.append(text, static_cast<std::size_t>(end.ptr - text));
 }
 
 /// Three numbers as text, binary32 if Number is float. Zeros without sign.
