@@ -33,6 +33,7 @@ constexpr std::array verbs = {
     Verb{"explain", "a diagnostic explained, with an example", run_explain},
     Verb{"eval", "the function's values, gradients or intervals at points", run_eval},
     Verb{"mesh", "the surface of a model as a triangle mesh", run_mesh},
+    Verb{"render", "a picture of a solid", run_render},
 };
 
 std::string version_line() {

@@ -25,5 +25,6 @@ int run_info(Arguments arguments);
 int run_explain(Arguments arguments);
 int run_eval(Arguments arguments);
 int run_mesh(Arguments arguments);
+int run_render(Arguments arguments);
 
 }  // namespace frep::cli

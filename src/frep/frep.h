@@ -36,6 +36,7 @@
 #include "frep/lang/model.h"
 #include "frep/shapes/library.h"
 #include "frep/shapes/library_page.h"
+#include "frep/trace/solid_picture.h"
 
 namespace frep {
 

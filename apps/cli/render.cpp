@@ -1,0 +1,160 @@
+// `frep render`: pictures of a solid. Tested by tests/cli/render.txt and render_usage.txt.
+#include <filesystem>
+#include <optional>
+
+#include <fmt/format.h>
+
+#include "box.h"
+#include "budget.h"
+#include "command_line.h"
+#include "render_options.h"
+#include "terminal.h"
+#include "verbs.h"
+
+namespace frep::cli {
+
+namespace {
+
+class RenderRun {
+  public:
+    RenderRun(const RenderOptionTexts& options, RenderPlan plan, const PreparedModel& prepared)
+        : options_(options), plan_(std::move(plan)), prepared_(prepared), start_(now_seconds()) {
+        job_.threads = prepared.threads;
+    }
+
+    int run() {
+        take_wishes_of_the_model();
+        EvaluatorOptions evaluation = prepared_.evaluator;
+        evaluation.attributes = plan_.picture.material->uses_attributes;
+        auto evaluator = make_evaluator(prepared_.field(), evaluation);
+        if (!evaluator) return fail(evaluator.error());
+        auto sampled = make_sampled_field(std::move(*evaluator), prepared_.map, plan_.iso);
+        if (!sampled) return fail(sampled.error());
+        SceneOptions options;
+        options.quality = plan_.quality;
+        const auto box = choose_box(prepared_, plan_.bounds, **sampled, job_);
+        if (!box) return fail(box.error());
+        options.bounds = *box;
+        if (plan_.section)
+            options.section =
+                section_towards(plan_.picture.view, plan_.section->first, plan_.section->second);
+        ProgressBar bar("rendering");
+        const auto scene = SolidScene::make(**sampled, options, job_);
+        if (!scene) return fail(scene.error());
+        warn(*scene);
+        return plan_.turntable > 0 ? turn(*scene, bar) : single(*scene, bar);
+    }
+
+  private:
+    void take_wishes_of_the_model() {
+        PictureOptions& picture = plan_.picture;
+        const auto& notes = prepared_.model.program().annotations;
+        if (!picture.color && notes.color.size() == 3)
+            picture.color = Color{notes.color[0], notes.color[1], notes.color[2]};
+        const bool has_colors = prepared_.field().attributes.size() >= 3;
+        if (!picture.material && has_colors && !options_.base_color) picture.material = find_material("skin");
+        if (!picture.material) picture.material = &materials().front();
+        if (picture.material->uses_attributes && !has_colors)
+            print_warning("the model has no colors: material `skin` needs three attributes s[1..3]");
+    }
+
+    static void warn(const SolidScene& scene) {
+        if (!scene.has_solid()) print_warning("there is nothing to see: the solid is empty in the box");
+        if (scene.sampled())
+            print_warning(
+                "intervals say nothing about this function, so the surface was looked for at samples: "
+                "details finer than a hundredth of the box may be missed");
+    }
+
+    int single(const SolidScene& scene, ProgressBar& bar) {
+        job_.on_progress = [&bar](double share) { bar.update(share); };
+        const auto image = scene.picture(plan_.picture, job_);
+        job_.on_progress = nullptr;
+        if (!image) return fail(image.error());
+        if (const int code = write(*image, *options_.output)) return code;
+        summarize(*options_.output);
+        return exit_ok;
+    }
+
+    int turn(const SolidScene& scene, ProgressBar& bar) {
+        const std::filesystem::path path(*options_.output);
+        const double first = plan_.picture.view.azimuth;
+        for (int n = 0; n < plan_.turntable; ++n) {
+            PictureOptions picture = plan_.picture;
+            picture.view.azimuth = first + 360.0 * n / plan_.turntable;
+            const auto image = scene.picture(picture, job_);
+            if (!image) return fail(image.error());
+            bar.update(static_cast<double>(n + 1) / plan_.turntable);
+            const std::string name = fmt::format("{}-{:03}.png", path.stem().string(), n + 1);
+            if (const int code = write(*image, (path.parent_path() / name).string())) return code;
+        }
+        summarize(fmt::format("{} files beside {}", plan_.turntable, *options_.output));
+        return exit_ok;
+    }
+
+    int write(const Image& image, const std::string& path) const {
+        const auto& notes = prepared_.model.program().annotations;
+        PngOptions options;
+        options.title = notes.title;
+        options.author = notes.author;
+        options.license = notes.license;
+        options.software = fmt::format("frep {}", version());
+        const auto bytes = encode_png(image, options);
+        if (!bytes) return fail(bytes.error());
+        if (path == "-") return print_result(*bytes);
+        const WritingFile guard;
+        if (const Status status = write_file(path, *bytes); !status) return fail(status.error());
+        return exit_ok;
+    }
+
+    void summarize(const std::string& where) const {
+        print_summary(fmt::format("{} x {} pixels to {} in {:.2f} s", plan_.picture.width,
+                                  plan_.picture.height, where == "-" ? "standard output" : where,
+                                  now_seconds() - start_));
+    }
+
+    const RenderOptionTexts& options_;
+    RenderPlan plan_;
+    const PreparedModel& prepared_;
+    Job job_;
+    double start_;
+};
+
+/// A solid needs three axes; tells how to get them.
+int refuse_flat(const PreparedModel& prepared) {
+    const int n = prepared.header().coordinates();
+    if (n < 3) {
+        print_error(fmt::format("the object has {} coordinate{}; a solid needs 3", n, n == 1 ? "" : "s"));
+        print_help_line("`frep field` shows functions of the plane");
+        return exit_usage;
+    }
+    for (int axis = 0; axis < 3; ++axis) {
+        if (prepared.map.uses(axis)) continue;
+        print_error(
+            fmt::format("--map: no coordinate is mapped to {}; a solid needs x, y and z", "xyz"[axis]));
+        return exit_usage;
+    }
+    return exit_ok;
+}
+
+}  // namespace
+
+int run_render(Arguments arguments) {
+    RenderOptionTexts options;
+    CommandLine line(
+        "render", "render MODEL -o FILE.png [options]",
+        "Makes a picture of a solid: rays against the function itself.",
+        {"frep render pot.hf -o pot.png", "frep render pot.hf -o pot.png --material lacquer --view iso",
+         "frep render pot.hf -o inside.png --section y=0 --size 1600x1200"});
+    declare_render_options(line, options);
+    if (const auto code = line.parse(arguments)) return *code;
+    auto plan = plan_render(options);
+    if (!plan) return fail(plan.error());
+    int code = exit_ok;
+    const auto prepared = prepare_model(options.model, code);
+    if (!prepared) return code;
+    if (const int refused = refuse_flat(*prepared)) return refused;
+    return RenderRun(options, std::move(*plan), *prepared).run();
+}
+
+}  // namespace frep::cli

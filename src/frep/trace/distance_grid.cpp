@@ -1,0 +1,344 @@
+// Implementation of distance_grid.h.
+#include "frep/trace/distance_grid.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "frep/base/parallel.h"
+#include "frep/trace/distance_transform.h"
+
+namespace frep::tracing {
+
+namespace {
+
+constexpr int block = 8;            ///< cells along the side of a block that is judged as one
+constexpr int coarse_levels = 5;    ///< halvings of the box when the hull is looked for
+constexpr int margin = 2;           ///< cells around the hull
+constexpr int sampled_cells = 112;  ///< along the longest side, at most, where intervals say nothing
+constexpr float deepest = -2.0F;    ///< distances inside are cut off here
+constexpr float widest_band = 1.75F;
+
+struct Hull {
+    Box3 box;
+    bool is_empty = true;
+    double undecided = 0;  ///< share of the hull's coarse cells
+};
+
+Box3 octant(const Box3& box, unsigned c) {
+    const Vec3 m = (box.min + box.max) * 0.5;
+    return {{c & 1 ? m.x : box.min.x, c & 2 ? m.y : box.min.y, c & 4 ? m.z : box.min.z},
+            {c & 1 ? box.max.x : m.x, c & 2 ? box.max.y : m.y, c & 4 ? box.max.z : m.z}};
+}
+
+Box3 joined(const Box3& a, const Box3& b) {
+    return {{std::min(a.min.x, b.min.x), std::min(a.min.y, b.min.y), std::min(a.min.z, b.min.z)},
+            {std::max(a.max.x, b.max.x), std::max(a.max.y, b.max.y), std::max(a.max.z, b.max.z)}};
+}
+
+double volume(const Box3& box) {
+    const Vec3 side = box.max - box.min;
+    return side.x * side.y * side.z;
+}
+
+/// The hull of the coarse cells of `clip` that may hold some of the solid.
+Hull find_hull(SampledField& field, const Box3& clip) {
+    std::vector<Box3> boxes{clip}, children;
+    std::vector<SignRange> ranges;
+    for (int level = 0; level <= coarse_levels; ++level) {
+        ranges.resize(boxes.size());
+        field.ranges(boxes, ranges);
+        Hull hull;
+        double undecided = 0;
+        children.clear();
+        for (std::size_t i = 0; i < boxes.size(); ++i) {
+            if (!ranges[i].can_be_inside) continue;
+            hull.box = hull.is_empty ? boxes[i] : joined(hull.box, boxes[i]);
+            hull.is_empty = false;
+            if (ranges[i].can_be_outside || ranges[i].can_be_undefined) undecided += volume(boxes[i]);
+            for (unsigned c = 0; c < 8 && level < coarse_levels; ++c) children.push_back(octant(boxes[i], c));
+        }
+        if (hull.is_empty) return hull;
+        if (level == coarse_levels) {
+            hull.undecided = undecided / volume(hull.box);
+            return hull;
+        }
+        boxes = children;
+    }
+    return {};
+}
+
+/// What is known of a box, clipped: `whole` if no part of it lies beyond the clip box.
+CellState judge(const SignRange& range, bool whole) {
+    if (!range.can_be_inside) return CellState::outside;
+    return whole && !range.can_be_outside && !range.can_be_undefined ? CellState::inside : CellState::mixed;
+}
+
+double outside_of(const Box3& box, Vec3 p) {
+    return std::max({box.min.x - p.x, p.x - box.max.x, box.min.y - p.y, p.y - box.max.y, box.min.z - p.z,
+                     p.z - box.max.z});
+}
+
+}  // namespace
+
+CellState& DistanceGrid::state_at(int i, int j, int k) {
+    return states_[(static_cast<std::size_t>(k) * size(1) + static_cast<std::size_t>(j)) * size(0) +
+                   static_cast<std::size_t>(i)];
+}
+
+Box3 DistanceGrid::cell_box(std::array<int, 3> lo, int side) const {
+    // A hair wider, so that rounding leaves no gap between neighbours.
+    const double hair = 1e-9 * step_;
+    const Vec3 out{hair, hair, hair};
+    return {corner(lo[0], lo[1], lo[2]) - out, corner(lo[0] + side, lo[1] + side, lo[2] + side) + out};
+}
+
+Result<DistanceGrid> DistanceGrid::make(FieldPool& fields, const Box3& clip, int cells, const Job& job) {
+    DistanceGrid grid;
+    grid.clip_ = clip;
+    const Hull hull = find_hull(*fields.borrow(), clip);
+    if (hull.is_empty) return grid;
+    grid.sampled_ = hull.undecided > 0.5;
+    grid.place(hull.box, grid.sampled_ ? std::min(cells, sampled_cells) : cells);
+    if (grid.sampled_)
+        grid.classify_by_samples(fields, job);
+    else
+        grid.classify(fields, job);
+    if (!job.cancelled()) grid.measure(fields, job);
+    if (job.cancelled()) return Error{ErrorKind::cancelled, "the picture was cancelled"};
+    return grid;
+}
+
+void DistanceGrid::place(const Box3& hull, int cells) {
+    const Vec3 side = hull.max - hull.min;
+    const double longest = std::max({side.x, side.y, side.z});
+    step_ = longest / std::max(cells - 2 * margin, 4);
+    const double sides[3] = {side.x, side.y, side.z};
+    for (std::size_t a = 0; a < 3; ++a) {
+        const int count = static_cast<int>(__builtin_ceil(sides[a] / step_ - 1e-6)) + 2 * margin;
+        cells_[a] = (count + block - 1) / block * block;
+    }
+    const Vec3 middle = (hull.min + hull.max) * 0.5;
+    origin_ = middle - Vec3{cells_[0] * 0.5, cells_[1] * 0.5, cells_[2] * 0.5} * step_;
+    states_.assign(size(0) * size(1) * size(2), CellState::outside);
+}
+
+/// Blocks of cells, then their halves down to single cells, a row of blocks a task.
+void DistanceGrid::classify(FieldPool& fields, const Job& job) {
+    const int bx = cells_[0] / block, by = cells_[1] / block, bz = cells_[2] / block;
+    parallel_for(job, static_cast<std::size_t>(by * bz), [&](std::size_t task) {
+        const FieldPool::Lease field = fields.borrow();
+        const int j0 = static_cast<int>(task) % by * block, k0 = static_cast<int>(task) / by * block;
+        std::vector<std::array<int, 3>> parts, next;
+        for (int i = 0; i < bx; ++i) parts.push_back({i * block, j0, k0});
+        std::vector<Box3> boxes;
+        std::vector<SignRange> ranges;
+        for (int side = block; side >= 1; side /= 2) {
+            boxes.clear();
+            next.clear();
+            std::erase_if(parts, [&](const std::array<int, 3>& lo) {
+                const Box3 box = cell_box(lo, side);
+                return box.min.x > clip_.max.x || box.max.x < clip_.min.x || box.min.y > clip_.max.y ||
+                       box.max.y < clip_.min.y || box.min.z > clip_.max.z || box.max.z < clip_.min.z;
+            });
+            for (const auto& lo : parts) {
+                const Box3 box = cell_box(lo, side);
+                boxes.push_back({{std::max(box.min.x, clip_.min.x), std::max(box.min.y, clip_.min.y),
+                                  std::max(box.min.z, clip_.min.z)},
+                                 {std::min(box.max.x, clip_.max.x), std::min(box.max.y, clip_.max.y),
+                                  std::min(box.max.z, clip_.max.z)}});
+            }
+            ranges.resize(boxes.size());
+            if (!boxes.empty()) field->ranges(boxes, ranges);
+            for (std::size_t b = 0; b < parts.size(); ++b) {
+                const std::array<int, 3> lo = parts[b];
+                const CellState state = judge(ranges[b], boxes[b] == cell_box(lo, side));
+                if (state == CellState::mixed && side > 1) {
+                    for (int c = 0; c < 8; ++c)
+                        next.push_back({lo[0] + (c & 1) * side / 2, lo[1] + (c >> 1 & 1) * side / 2,
+                                        lo[2] + (c >> 2) * side / 2});
+                    continue;
+                }
+                if (state == CellState::outside) continue;
+                for (int k = 0; k < side; ++k)
+                    for (int j = 0; j < side; ++j)
+                        for (int i = 0; i < side; ++i) state_at(lo[0] + i, lo[1] + j, lo[2] + k) = state;
+            }
+            parts = next;
+        }
+    });
+}
+
+/// Cells near a change of sign between corners are mixed, those between inside corners inside.
+void DistanceGrid::classify_by_samples(FieldPool& fields, const Job& job) {
+    const std::size_t nx = corners(0), ny = corners(1), nz = corners(2);
+    std::vector<std::uint8_t> is_inside(nx * ny * nz, 0);
+    parallel_for(job, nz, [&](std::size_t k) {
+        const FieldPool::Lease field = fields.borrow();
+        std::vector<double> x(nx), y(nx), z(nx), f(nx);
+        for (std::size_t j = 0; j < ny; ++j) {
+            for (std::size_t i = 0; i < nx; ++i) {
+                const Vec3 p = corner(static_cast<int>(i), static_cast<int>(j), static_cast<int>(k));
+                x[i] = p.x, y[i] = p.y, z[i] = p.z;
+            }
+            field->values({x, y, z}, f);
+            for (std::size_t i = 0; i < nx; ++i)
+                is_inside[(k * ny + j) * nx + i] = f[i] >= 0 && clip_.contains({x[i], y[i], z[i]}) ? 1 : 0;
+        }
+    });
+    const int reach = 1;
+    for (int k = 0; k < cells_[2]; ++k)
+        for (int j = 0; j < cells_[1]; ++j)
+            for (int i = 0; i < cells_[0]; ++i) {
+                int inside = 0, seen = 0;
+                for (int c = std::max(k - reach, 0); c <= std::min(k + 1 + reach, cells_[2]); ++c)
+                    for (int b = std::max(j - reach, 0); b <= std::min(j + 1 + reach, cells_[1]); ++b)
+                        for (int a = std::max(i - reach, 0); a <= std::min(i + 1 + reach, cells_[0]); ++a) {
+                            ++seen;
+                            inside +=
+                                is_inside[(static_cast<std::size_t>(c) * ny + static_cast<std::size_t>(b)) *
+                                              nx +
+                                          static_cast<std::size_t>(a)];
+                        }
+                state_at(i, j, k) = inside == 0      ? CellState::outside
+                                    : inside == seen ? CellState::inside
+                                                     : CellState::mixed;
+            }
+}
+
+void DistanceGrid::measure(FieldPool& fields, const Job& job) {
+    distance_.assign(corners(0) * corners(1) * corners(2), 0);
+    std::vector<std::uint8_t> band(distance_.size(), 0);
+    parallel_for(job, corners(2),
+                 [&](std::size_t k) { measure_layer(*fields.borrow(), static_cast<int>(k), band); });
+    if (job.cancelled()) return;
+    refine_at_crossings(band);
+    collect_surface(band);
+    spread(band, job);
+}
+
+/// First-order distances at the corners of mixed cells in layer k; the other corners get a sign.
+void DistanceGrid::measure_layer(SampledField& field, int k, std::vector<std::uint8_t>& band) {
+    std::vector<std::size_t> places;
+    std::vector<double> x, y, z;
+    const std::size_t first = static_cast<std::size_t>(k) * corners(0) * corners(1);
+    for (int j = 0; j <= cells_[1]; ++j) {
+        for (int i = 0; i <= cells_[0]; ++i) {
+            bool is_mixed = false, is_outside = false;
+            for (int c = 0; c < 8; ++c) {
+                const int a = i - (c & 1), b = j - (c >> 1 & 1), d = k - (c >> 2);
+                if (a < 0 || b < 0 || d < 0 || a >= cells_[0] || b >= cells_[1] || d >= cells_[2]) {
+                    is_outside = true;
+                    continue;
+                }
+                is_mixed = is_mixed || state(a, b, d) == CellState::mixed;
+                is_outside = is_outside || state(a, b, d) == CellState::outside;
+            }
+            const std::size_t place =
+                first + static_cast<std::size_t>(j) * corners(0) + static_cast<std::size_t>(i);
+            distance_[place] = is_outside ? 1.0F : deepest;
+            if (!is_mixed) continue;
+            const Vec3 p = corner(i, j, k);
+            places.push_back(place);
+            x.push_back(p.x), y.push_back(p.y), z.push_back(p.z);
+        }
+    }
+    const std::size_t count = places.size();
+    if (count == 0) return;
+    std::vector<double> f(count), gx(count), gy(count), gz(count);
+    field.gradients({x, y, z}, f, {gx, gy, gz});
+    for (std::size_t p = 0; p < count; ++p) {
+        const double slope = length({gx[p], gy[p], gz[p]}) * step_;
+        double d = -f[p] / slope;
+        if (!(f[p] >= 0)) d = d > 0 ? d : 1;
+        if (f[p] >= 0 && !(d <= 0)) d = -1;
+        d = std::max(d, outside_of(clip_, {x[p], y[p], z[p]}) / step_);
+        band[places[p]] = 1;
+        distance_[places[p]] = static_cast<float>(std::clamp(d, double{-widest_band}, double{widest_band}));
+    }
+}
+
+/// Where the sign changes along an edge, the surface is not farther than the edge is long.
+void DistanceGrid::refine_at_crossings(std::vector<std::uint8_t>& band) {
+    const std::size_t nx = corners(0), ny = corners(1), nz = corners(2);
+    const std::array<std::size_t, 3> strides{1, nx, nx * ny};
+    std::vector<float> limit(distance_.size(), widest_band);
+    for (std::size_t k = 0; k < nz; ++k)
+        for (std::size_t j = 0; j < ny; ++j)
+            for (std::size_t i = 0; i < nx; ++i) {
+                const std::size_t p = (k * ny + j) * nx + i;
+                if (!band[p]) continue;
+                const std::array<bool, 3> has_next{i + 1 < nx, j + 1 < ny, k + 1 < nz};
+                for (std::size_t a = 0; a < 3; ++a) {
+                    const std::size_t q = p + strides[a];
+                    if (!has_next[a] || !band[q] || (distance_[p] > 0) == (distance_[q] > 0)) continue;
+                    const float dp = std::fabs(distance_[p]), dq = std::fabs(distance_[q]);
+                    const float share = dp + dq > 0 ? dp / (dp + dq) : 0.5F;
+                    limit[p] = std::min(limit[p], share);
+                    limit[q] = std::min(limit[q], 1 - share);
+                }
+            }
+    for (std::size_t p = 0; p < distance_.size(); ++p)
+        if (band[p]) distance_[p] = std::clamp(distance_[p], -limit[p], limit[p]);
+}
+
+void DistanceGrid::collect_surface(const std::vector<std::uint8_t>& band) {
+    std::size_t p = 0;
+    for (int k = 0; k <= cells_[2]; ++k)
+        for (int j = 0; j <= cells_[1]; ++j)
+            for (int i = 0; i <= cells_[0]; ++i, ++p)
+                if (band[p] && distance_[p] <= 0.5F) {
+                    const Vec3 at = corner(i, j, k);
+                    const double height = at.z + double{distance_[p]} * step_;
+                    lowest_ = surface_points_.empty() ? height : std::min(lowest_, height);
+                    surface_points_.push_back(at);
+                }
+    if (!surface_points_.empty()) return;
+    lowest_ = clip_.min.z;
+    for (int k = 0; k < cells_[2]; ++k)
+        for (int j = 0; j < cells_[1]; ++j)
+            for (int i = 0; i < cells_[0]; ++i)
+                if (state(i, j, k) != CellState::outside)
+                    surface_points_.push_back(corner(i, j, k) + Vec3{0.5, 0.5, 0.5} * step_);
+}
+
+/// Distances beyond the band.
+void DistanceGrid::spread(const std::vector<std::uint8_t>& band, const Job& job) {
+    std::vector<float> squares(distance_.size(), no_seed);
+    for (std::size_t p = 0; p < squares.size(); ++p)
+        if (band[p] && distance_[p] <= 1) squares[p] = distance_[p] * distance_[p];
+    distance_transform(squares, {corners(0), corners(1), corners(2)}, job);
+    for (std::size_t p = 0; p < squares.size(); ++p)
+        if (distance_[p] > 0 && (!band[p] || distance_[p] > 1))
+            distance_[p] = std::max(std::sqrt(squares[p]), band[p] ? 1.0F : 1.0F);
+}
+
+double DistanceGrid::distance(Vec3 p) const {
+    const double u = (p.x - origin_.x) / step_, v = (p.y - origin_.y) / step_, w = (p.z - origin_.z) / step_;
+    const double cu = std::clamp(u, 0.0, cells_[0] - 1e-9), cv = std::clamp(v, 0.0, cells_[1] - 1e-9),
+                 cw = std::clamp(w, 0.0, cells_[2] - 1e-9);
+    const int i = static_cast<int>(cu), j = static_cast<int>(cv), k = static_cast<int>(cw);
+    const auto a = static_cast<float>(cu - i), b = static_cast<float>(cv - j), c = static_cast<float>(cw - k);
+    const std::size_t sy = corners(0), sz = corners(0) * corners(1);
+    const float* d = distance_.data() + static_cast<std::size_t>(k) * sz + static_cast<std::size_t>(j) * sy +
+                     static_cast<std::size_t>(i);
+    const float d00 = d[0] + a * (d[1] - d[0]), d10 = d[sy] + a * (d[sy + 1] - d[sy]);
+    const float d01 = d[sz] + a * (d[sz + 1] - d[sz]), d11 = d[sz + sy] + a * (d[sz + sy + 1] - d[sz + sy]);
+    const float d0 = d00 + b * (d10 - d00), d1 = d01 + b * (d11 - d01);
+    const double inner = d0 + c * (d1 - d0);
+    const double du = u - cu, dv = v - cv, dw = w - cw;
+    const double beyond = du * du + dv * dv + dw * dw;
+    // The nearest point of the convex lattice is nearer to everything in it than p is.
+    if (beyond > 1e-12) return __builtin_sqrt(beyond + inner * inner) * step_;
+    return inner * step_;
+}
+
+Vec3 DistanceGrid::direction(Vec3 p) const {
+    const double h = 0.75 * step_;
+    const Vec3 g{distance({p.x + h, p.y, p.z}) - distance({p.x - h, p.y, p.z}),
+                 distance({p.x, p.y + h, p.z}) - distance({p.x, p.y - h, p.z}),
+                 distance({p.x, p.y, p.z + h}) - distance({p.x, p.y, p.z - h})};
+    const double size = length(g);
+    return size > 0 ? g / size : Vec3{};
+}
+
+}  // namespace frep::tracing

@@ -1,0 +1,62 @@
+// One picture of a scene: rays in tiles, samples, edges that need more samples, pixels. Tested by
+// tests/unit/trace/solid_picture_test.cpp.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "frep/eval/field_pool.h"
+#include "frep/trace/first_hit.h"
+#include "frep/trace/shading.h"
+#include "frep/trace/solid_picture.h"
+
+namespace frep::tracing {
+
+/// What one ray brings: light as displayed (0..1, linear, multiplied by alpha), and what it met.
+struct Sample {
+    Rgb light;
+    double alpha = 1;
+    float depth = 0;               ///< along the ray; only of hits
+    float nx = 0, ny = 0, nz = 0;  ///< normal of a hit
+    std::uint8_t kind = 0;         ///< 0 nothing, 1 surface, 2 section
+};
+
+class Painter {
+  public:
+    Painter(const DistanceGrid& grid, FieldPool& fields, const SceneOptions& scene,
+            const PictureOptions& options, double lowest);
+
+    /// The picture. Errors: cancelled.
+    Result<Image> paint(const Job& job);
+
+  private:
+    struct Worker;
+    /// Samples at points of the picture: x and y in pixels.
+    void sample(Worker& worker, std::span<const Vec2> places, std::span<Sample> samples) const;
+    void find_normals(Worker& worker, std::span<const Ray> rays, std::span<const Hit> hits) const;
+    void find_colors(Worker& worker, std::span<const Ray> rays, std::span<const Hit> hits) const;
+    Rgb hit_light(const Worker& worker, std::size_t i, const Ray& ray, const Hit& hit, Sample& sample) const;
+    void backdrop(const Ray& ray, Vec2 place, Sample& sample) const;
+    Rgb backdrop_light(Vec2 place) const;
+    bool is_edge(const Sample& a, const Sample& b) const;
+    std::vector<std::uint32_t> edges() const;
+    void smooth_edges(const Job& job);
+    Image developed() const;
+
+    const DistanceGrid& grid_;
+    FieldPool& fields_;
+    const SceneOptions& scene_;
+    const PictureOptions& options_;
+    const NamedMaterial& material_;
+    NamedMaterial section_material_;
+    Camera camera_;
+    Studio studio_;
+    Stage stage_;
+    Shader shader_;
+    Rgb section_base_;
+    int section_side_ = 0;  ///< as Hit::cut_by
+    std::vector<Sample> samples_;
+};
+
+}  // namespace frep::tracing
