@@ -29,8 +29,7 @@ bool same_bits(const Vec3& a, const Vec3& b) {
 }
 
 double written(double value, bool as_float32) {
-    const double kept = as_float32 ? static_cast<double>(static_cast<float>(value)) : value;
-    return kept + 0.0;  // -0 becomes +0
+    return (as_float32 ? rounded_to_binary32(value) : value) + 0.0;  // -0 becomes +0
 }
 
 Vec3 written(const Vec3& p, bool as_float32) {
@@ -38,6 +37,10 @@ Vec3 written(const Vec3& p, bool as_float32) {
 }
 
 }  // namespace
+
+[[gnu::noinline]] double rounded_to_binary32(double value) {
+    return static_cast<double>(static_cast<float>(value));
+}
 
 bool is_valid(const Mesh& mesh) {
     if (!mesh.normals.empty() && mesh.normals.size() != mesh.vertices.size()) return false;

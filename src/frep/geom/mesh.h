@@ -28,6 +28,10 @@ struct Mesh {
 /// `vertices`. Every verb on meshes asks for it.
 bool is_valid(const Mesh& mesh);
 
+/// `value` as a binary32 number holds it. A function of its own on purpose: where g++ 12 sees two such
+/// conversions side by side it vectorizes them and loses the rounding (from -O2 on).
+double rounded_to_binary32(double value);
+
 struct MergeOptions {
     bool as_float32 = true;  ///< round the coordinates to binary32 first, as the binary file formats do
 };

@@ -25,7 +25,7 @@ struct Part {
 
 /// A point in metres with Y up, as written.
 Vec3 placed(const Vec3& p, double metres) {
-    const auto written = [](double value) { return static_cast<double>(static_cast<float>(value)) + 0.0; };
+    const auto written = [](double value) { return rounded_to_binary32(value) + 0.0; };
     return {written(p.x * metres), written(p.z * metres), written(-p.y * metres)};
 }
 

@@ -18,6 +18,16 @@ TEST_CASE("a mesh is valid when every index names a vertex") {
     CHECK_FALSE(is_valid(mesh));
 }
 
+TEST_CASE("coordinates side by side are rounded to binary32") {
+    Mesh mesh;
+    mesh.vertices = {{1 + 1e-9, 1 - 1e-9, 2 + 1e-9}, {1, 1, 2}};
+    CHECK(merge_equal_positions(mesh).vertices.size() == 1);
+    mesh.vertices.push_back({5, 6, 7});
+    CHECK(collapses(mesh, {0, 1, 2}));
+    CHECK_FALSE(collapses(mesh, {0, 1, 2}, {.as_float32 = false}));
+    CHECK(rounded_to_binary32(0.1) == 0.100000001490116119384765625);
+}
+
 TEST_CASE("merging joins equal positions and drops what collapses") {
     const Mesh twice = test::together(test::tetrahedron(), test::tetrahedron({1e-9, 0, 0}));
     const Mesh as_float = merge_equal_positions(twice);
