@@ -17,6 +17,7 @@
 #include "frep/contour/bounds.h"
 #include "frep/contour/contour.h"
 #include "frep/eval/evaluator.h"
+#include "frep/eval/plane.h"
 #include "frep/eval/sampled_field.h"
 #include "frep/field/expression.h"
 #include "frep/field/field.h"
@@ -36,6 +37,8 @@
 #include "frep/lang/model.h"
 #include "frep/shapes/library.h"
 #include "frep/shapes/library_page.h"
+#include "frep/trace/plane_picture.h"
+#include "frep/trace/plane_render.h"
 #include "frep/trace/solid_picture.h"
 
 namespace frep {
@@ -49,7 +52,7 @@ int numeric_profile();
 /// diagnostics.
 Result<Model> compile(std::string_view text, std::string name = "model.hf");
 
-/// The model in the file `path`. Files that it names are read from its folder only (no links, 1 GiB at most).
+/// The model in the file `path`, HyperFun or, by its extension, `.vm`. Files that it names are read from its folder only (no links, 1 GiB at most).
 /// Errors: as compile(); io and over_limit when the file cannot be read.
 Result<Model> compile_file(const std::string& path);
 
