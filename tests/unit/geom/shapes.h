@@ -1,6 +1,8 @@
 // Small meshes for the tests of geom and io.
 #pragma once
 
+#include <utility>
+
 #include "frep/geom/mesh.h"
 
 namespace frep::test {
@@ -24,6 +26,53 @@ inline Mesh together(Mesh a, const Mesh& b) {
         a.triangles.push_back(t);
     }
     return a;
+}
+
+/// The box from `min` to `max`: 12 triangles, outward oriented.
+inline Mesh box(Vec3 min, Vec3 max) {
+    Mesh mesh;
+    for (int i = 0; i < 8; ++i)
+        mesh.vertices.push_back(
+            {(i & 1) != 0 ? max.x : min.x, (i & 2) != 0 ? max.y : min.y, (i & 4) != 0 ? max.z : min.z});
+    mesh.triangles = {{0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}, {0, 1, 5}, {0, 5, 4},
+                      {2, 6, 7}, {2, 7, 3}, {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}};
+    return mesh;
+}
+
+/// The mesh with its other side outward.
+inline Mesh turned_inside_out(Mesh mesh) {
+    for (Triangle& t : mesh.triangles) std::swap(t[1], t[2]);
+    return mesh;
+}
+
+/// A sphere: an octahedron whose triangles are split in four `levels` times; 8 * 4^levels triangles. The
+/// vertices lie on the sphere; the split edges' middles are not shared before merging.
+inline Mesh sphere(Vec3 center, double radius, int levels) {
+    std::vector<std::array<Vec3, 3>> faces;
+    for (const double x : {-1.0, 1.0}) {
+        for (const double y : {-1.0, 1.0}) {
+            for (const double z : {-1.0, 1.0}) {
+                std::array<Vec3, 3> face{Vec3{x, 0, 0}, Vec3{0, y, 0}, Vec3{0, 0, z}};
+                if (x * y * z < 0) std::swap(face[1], face[2]);
+                faces.push_back(face);
+            }
+        }
+    }
+    for (int level = 0; level < levels; ++level) {
+        std::vector<std::array<Vec3, 3>> finer;
+        for (const auto& [a, b, c] : faces) {
+            const Vec3 p = (b + c) / length(b + c), q = (c + a) / length(c + a), r = (a + b) / length(a + b);
+            finer.insert(finer.end(), {{a, r, q}, {r, b, p}, {q, p, c}, {p, q, r}});
+        }
+        faces = finer;
+    }
+    Mesh mesh;
+    for (const auto& face : faces) {
+        const auto base = static_cast<std::uint32_t>(mesh.vertices.size());
+        for (const Vec3& p : face) mesh.vertices.push_back(center + p * radius);
+        mesh.triangles.push_back({base, base + 1, base + 2});
+    }
+    return mesh;
 }
 
 /// A square ring of n x m vertices wrapped to a torus: 2nm triangles, every vertex at its own position.
