@@ -73,10 +73,15 @@ void append_quoted(std::string& out, std::string_view text) {
 }
 
 std::string identifier(std::string_view text, std::string_view prefix) {
+    constexpr std::size_t longest = 60;
     const std::string clean = clean_text(text);
     std::string name;
-    for (std::size_t i = 0; i < clean.size(); i += sequence_length(clean[i])) {
-        name.push_back(is_letter(clean[i]) || is_digit(clean[i]) ? clean[i] : '_');
+    for (std::size_t i = 0; i < clean.size() && name.size() < longest; i += sequence_length(clean[i])) {
+        if (is_letter(clean[i]) || is_digit(clean[i])) {
+            name.push_back(clean[i]);
+        } else if (name.empty() || name.back() != '_') {
+            name.push_back('_');
+        }
     }
     return name.empty() || !is_letter(name[0]) ? std::string(prefix) + name : name;
 }

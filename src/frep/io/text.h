@@ -18,8 +18,8 @@ void append_xml(std::string& out, std::string_view text);
 /// Appends the cleaned text in double quotes, with \" and \\ inside: a string of JSON and of VRML.
 void append_quoted(std::string& out, std::string_view text);
 
-/// `text` with all but ASCII letters, digits and _ replaced by _ (a UTF-8 sequence by one); `prefix` stands
-/// before a text that does not begin with a letter.
+/// `text` reduced to ASCII letters, digits and _: one _ for each run of other characters, 60 characters at
+/// most; `prefix` stands before what does not begin with a letter.
 std::string identifier(std::string_view text, std::string_view prefix);
 
 /// The cleaned text as one word for Wavefront files: blanks and # become _.

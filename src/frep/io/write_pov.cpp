@@ -1,7 +1,8 @@
 // POV-Ray 3.7 scene description: a mesh2 an object, declared under its name, and a small scene around them
 // that is left out when the file is included after `#declare Frep_Include = 1;`. POV-Ray's space is
-// left-handed with Y up, so Y and Z change places; lengths are in model units. A closed mesh has an
-// inside_vector and can stand in a difference. Rendered by tests/validators where povray is installed.
+// left-handed with Y up, so Y and Z change places; lengths are in model units. Colors are in linear light,
+// for scenes with assumed_gamma 1. A closed mesh has an inside_vector and can stand in a difference. Rendered
+// by tests/validators where povray is installed.
 #include <algorithm>
 
 #include "frep/io/encode.h"
@@ -60,9 +61,11 @@ void append_finish(std::string& out, const Material& m, const std::string& name)
     out += " falloff 3 }\n}\n";
 }
 
-void append_texture(std::string& out, const Vec3& color, const std::string& finish) {
-    out += "texture { pigment { color srgb ";
-    append_triple(out, color);
+/// The color in linear light, for scenes with assumed_gamma 1.
+void append_texture(std::string& out, const Color& color, const std::string& finish) {
+    const Color linear = linear_from_srgb(color);
+    out += "texture { pigment { color rgb ";
+    append_triple(out, {linear.r, linear.g, linear.b});
     out += " } finish { " + finish + " } }\n";
 }
 
@@ -71,9 +74,9 @@ void append_palette(std::string& out, const Palette& palette, const std::string&
     append_number(out, palette.colors.size());
     out += ",\n";
     for (const std::uint32_t color : palette.colors) {
-        const Vec3 bytes{double((color >> 16) & 255u), double((color >> 8) & 255u), double(color & 255u)};
+        const auto component = [color](int shift) { return double((color >> shift) & 255u) / 255; };
         out += "  ";
-        append_texture(out, bytes / 255, finish);
+        append_texture(out, {component(16), component(8), component(0)}, finish);
     }
     out += " }\n";
 }
@@ -98,9 +101,8 @@ void append_faces(std::string& out, const std::vector<Triangle>& triangles,
 }
 
 void append_object(std::string& out, const ObjectView& object, const std::vector<Triangle>& triangles,
-                   const std::string& name) {
+                   const std::string& name, const std::string& finish) {
     const Mesh& mesh = *object.mesh;
-    const std::string finish = name + "_Finish";
     append_comment(out, "object", object.name);
     append_finish(out, object.material, finish);
     out += "#declare " + name + " = mesh2 {\n";
@@ -117,10 +119,9 @@ void append_object(std::string& out, const ObjectView& object, const std::vector
     }
     append_faces(out, triangles, color);
     if (is_closed(triangles)) out += " inside_vector <0, 1, 0>\n";
-    const Color& base = object.material.base;
     if (mesh.colors.empty()) {
         out.push_back(' ');
-        append_texture(out, {base.r, base.g, base.b}, finish);
+        append_texture(out, object.material.base, finish);
     }
     out += "}\n";
 }
@@ -128,10 +129,10 @@ void append_object(std::string& out, const ObjectView& object, const std::vector
 /// A camera that sees the whole, two lights and a background, in POV-Ray's space.
 void append_stage(std::string& out, const Box3& box) {
     const Vec3 center = y_and_z_swapped(0.5 * (box.min + box.max));
-    const double radius = std::max(0.5 * box.diagonal(), 1e-6);
+    const double radius = box.diagonal() > 0 ? 0.5 * box.diagonal() : 1;
     const auto at = [&](const Vec3& direction) { append_triple(out, center + direction * radius); };
     out +=
-        " global_settings { assumed_gamma 1 }\n background { color srgb <0.9,0.9,0.9> }\n"
+        " global_settings { assumed_gamma 1 }\n background { color rgb 0.8 }\n"
         " camera {\n  location ";
     at({1.2, 1.1, -3});
     out += "\n  look_at ";
@@ -171,7 +172,7 @@ std::string write_pov(const SceneView& scene) {
         const std::vector<Triangle> triangles = proper_triangles(object.mesh->triangles);
         if (triangles.empty()) continue;
         declared.push_back(names.unique("Frep_" + identifier(object.name, "Object")));
-        append_object(out, object, triangles, declared.back());
+        append_object(out, object, triangles, declared.back(), names.unique(declared.back() + "_Finish"));
         grow(box, *object.mesh, first);
     }
     out += "#ifndef (Frep_Include)\n";

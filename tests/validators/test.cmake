@@ -1,0 +1,38 @@
+# Judges of the written files: other programs and libraries read them (docs/formats.md). One program writes the
+# samples; each judge is a test, which counts itself as skipped where its tool is missing. The sanitizers have
+# nothing to find here.
+if(FREP_SANITIZE)
+  return()
+endif()
+set(validators_dir ${CMAKE_CURRENT_LIST_DIR})
+set(samples_dir ${PROJECT_BINARY_DIR}/tests/samples)
+file(MAKE_DIRECTORY ${samples_dir})
+
+add_executable(write_samples ${validators_dir}/write_samples.cpp)
+target_link_libraries(write_samples PRIVATE frep)
+set_target_properties(write_samples PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/tests)
+frep_test(validator_samples write_samples ${samples_dir})
+set_tests_properties(validator_samples PROPERTIES FIXTURES_SETUP samples)
+
+foreach(kind node stl xml pov)
+  frep_test(validator_${kind} ${validators_dir}/judge ${kind} ${samples_dir})
+  set_tests_properties(validator_${kind} PROPERTIES FIXTURES_REQUIRED samples)
+endforeach()
+
+find_path(LIB3MF_INCLUDE_DIR Model/COM/NMR_DLLInterfaces.h PATH_SUFFIXES lib3mf)
+find_library(LIB3MF_LIBRARY 3MF)
+if(LIB3MF_INCLUDE_DIR AND LIB3MF_LIBRARY)
+  add_executable(read_3mf ${validators_dir}/read_3mf.cpp)
+  target_include_directories(read_3mf SYSTEM PRIVATE ${LIB3MF_INCLUDE_DIR})
+  target_link_libraries(read_3mf PRIVATE ${LIB3MF_LIBRARY})
+  target_compile_features(read_3mf PRIVATE cxx_std_20)
+  set_target_properties(read_3mf PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/tests)
+  set(samples_3mf)
+  foreach(name sphere torus named open empty)
+    list(APPEND samples_3mf ${samples_dir}/${name}.3mf)
+  endforeach()
+  frep_test(validator_3mf read_3mf ${samples_3mf})
+else()
+  frep_test(validator_3mf ${CMAKE_COMMAND} -E echo "skipped: 1 (lib3mf is not installed)")
+endif()
+set_tests_properties(validator_3mf PROPERTIES FIXTURES_REQUIRED samples)
