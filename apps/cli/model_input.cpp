@@ -66,17 +66,15 @@ std::optional<Model> read_model(const std::string& path, int& code) {
         code = usage_error("a model is missing: give the name of a .hf file");
         return std::nullopt;
     }
-    if (has_extension(path, ".vm")) {
-        code = usage_error("models in .vm form come with a later version; this one reads HyperFun (.hf)");
-        return std::nullopt;
-    }
     const auto bytes = read_source(path);
     if (!bytes) {
         code = fail(bytes.error());
         return std::nullopt;
     }
     const std::string folder = path == "-" ? "" : std::filesystem::path(path).parent_path().string();
-    return Model(Source(path == "-" ? "<stdin>" : to_valid_utf8(path), *bytes), files_of_folder(folder));
+    const ModelText text = has_extension(path, ".vm") ? ModelText::vm : ModelText::hyperfun;
+    return Model(Source(path == "-" ? "<stdin>" : to_valid_utf8(path), *bytes), files_of_folder(folder),
+                 text);
 }
 
 std::optional<Model> load_model(const std::string& path, int& code) {

@@ -17,7 +17,10 @@ Result<Model> compile(std::string_view text, std::string name) {
 Result<Model> compile_file(const std::string& path) {
     auto bytes = read_file(path, lang::source_limit + 1);
     if (!bytes) return bytes.error();
-    Model model(Source(path, *bytes), files_of_folder(std::filesystem::path(path).parent_path().string()));
+    const std::filesystem::path place(path);
+    const bool is_vm = lower_case(place.extension().string()) == ".vm";
+    Model model(Source(path, *bytes), files_of_folder(place.parent_path().string()),
+                is_vm ? ModelText::vm : ModelText::hyperfun);
     if (!model.ok()) return Error{ErrorKind::invalid_model, render(model.diagnostics(), model.source())};
     return model;
 }

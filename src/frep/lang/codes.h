@@ -11,7 +11,8 @@
 
 namespace frep::lang {
 
-/// A row of diagnostics.def. HF001..HF099 come from parse(), HF101..HF199 from lowering.
+/// A row of diagnostics.def. HF001..HF099 come from parse(), HF101..HF199 from
+/// lowering, HF201..HF249 from parse_vm_text().
 enum class Code : std::uint8_t {
 #define FREP_DIAGNOSTIC(code, name, severity, proof, title, text, wrong, right) name,
 #include "frep/lang/diagnostics.def"
@@ -23,6 +24,7 @@ enum class Proof : std::uint8_t {
     example,    ///< parse(wrong) gives the code, parse(right) gives nothing
     generated,  ///< the text is too large for a table: explain_test.cpp makes it
     lowering,   ///< the code comes from lowering, tested with it
+    vm_text,    ///< parse_vm_text(wrong) gives the code, parse_vm_text(right) gives nothing
 };
 
 /// What the table says of a code.

@@ -5,11 +5,33 @@
 #include <fmt/format.h>
 
 #include "frep/lang/parser.h"
+#include "frep/lang/vm_text.h"
 
 namespace frep {
-Model::Model(Source source, ReadFile read_file)
+namespace {
+
+/// What a HyperFun file with the one object `my_model` and no parameters would say.
+lang::Program program_of(const Field& field) {
+    lang::Object object;
+    object.name = object.written_name = "my_model";
+    object.arrays = {{"x", static_cast<std::uint32_t>(field.coordinates), {}}, {"a", 0, {}}, {"s", 0, {}}};
+    lang::Program program;
+    program.objects.push_back(std::move(object));
+    return program;
+}
+
+}  // namespace
+
+Model::Model(Source source, ReadFile read_file, ModelText text)
     : source_(std::move(source)), read_file_(std::move(read_file)) {
-    program_ = std::make_shared<const lang::Program>(lang::parse(source_, diagnostics_));
+    if (text == ModelText::hyperfun) {
+        program_ = std::make_shared<const lang::Program>(lang::parse(source_, diagnostics_));
+        return;
+    }
+    lang::Reporter report(source_);
+    field_ = lang::parse_vm_text(source_, report);
+    report.finish(diagnostics_);
+    program_ = std::make_shared<const lang::Program>(field_ ? program_of(*field_) : lang::Program{});
 }
 
 std::optional<std::size_t> Model::find_object(std::string_view name) const {
@@ -44,6 +66,12 @@ std::optional<lang::Lowered> Model::lower(std::size_t object, const std::vector<
     if (!ok()) {
         diagnostics.append(diagnostics_);
         return std::nullopt;
+    }
+    if (field_) {
+        lang::Lowered out;
+        out.field = *field_;
+        out.operations_before = field_->graph->size();
+        return out;
     }
     const lang::LowerOptions options{.parameters = complete_parameters(object, parameters),
                                      .read_file = read_file_};

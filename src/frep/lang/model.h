@@ -1,5 +1,5 @@
-// Model: a parsed HyperFun file, ready to give the field of any of its objects for any parameter values.
-// Tested by tests/unit/lang/model_test.cpp.
+// Model: a parsed HyperFun or `.vm` file, ready to give the field of any of its objects for any parameter
+// values. Tested by tests/unit/lang/model_test.cpp.
 #pragma once
 
 #include <memory>
@@ -17,11 +17,17 @@ namespace frep {
 /// Content of a file that a model names, relative to the model's folder. The library opens no path itself.
 using ReadFile = std::function<Result<std::string>(std::string_view)>;
 
+/// The languages that a model may be written in.
+enum class ModelText {
+    hyperfun,  ///< HyperFun, `.hf`
+    vm,        ///< the text form of lang/vm_text.h, `.vm`: one object, without parameters
+};
+
 class Model {
   public:
     /// Parses `source`; diagnostics() says what is wrong. `read_file` serves library functions that read a
     /// file; without it they are refused.
-    explicit Model(Source source, ReadFile read_file = {});
+    explicit Model(Source source, ReadFile read_file = {}, ModelText text = ModelText::hyperfun);
 
     /// False when the text has errors; then there are no fields.
     bool ok() const { return !diagnostics_.has_errors(); }
@@ -53,6 +59,7 @@ class Model {
     ReadFile read_file_;
     Diagnostics diagnostics_;
     std::shared_ptr<const lang::Program> program_;
+    std::optional<Field> field_;  ///< of a model that needs no lowering
 };
 
 }  // namespace frep

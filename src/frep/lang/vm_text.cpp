@@ -1,0 +1,278 @@
+// Implementation of vm_text.h: one pass over the text; names are looked up in an open-addressing table of
+// views into it, so that no line allocates.
+#include "frep/lang/vm_text.h"
+
+#include <array>
+#include <bit>
+#include <charconv>
+#include <cstddef>
+#include <limits>
+#include <memory>
+#include <string_view>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "frep/lang/limits.h"
+
+namespace frep::lang {
+
+namespace {
+
+/// An operation of the text form; `build` makes its node from one or two operands.
+struct VmOperation {
+    std::string_view name;
+    int arity;
+    NodeId (*build)(Graph& graph, NodeId a, NodeId b);
+};
+
+template <Op op>
+NodeId unary(Graph& graph, NodeId a, NodeId) {
+    return graph.make(op, {a});
+}
+
+template <Op op>
+NodeId binary(Graph& graph, NodeId a, NodeId b) {
+    return graph.make(op, {a, b});
+}
+
+NodeId reciprocal(Graph& graph, NodeId a, NodeId) { return graph.make(Op::div, {graph.constant(1), a}); }
+
+NodeId modulo(Graph& graph, NodeId a, NodeId b) {
+    const NodeId whole = graph.make(Op::floor, {graph.make(Op::div, {a, b})});
+    return graph.make(Op::sub, {a, graph.make(Op::mul, {b, whole})});
+}
+
+/// Frequent ones first.
+constexpr std::array operations{
+    VmOperation{"sub", 2, binary<Op::sub>},
+    VmOperation{"square", 1, unary<Op::square>},
+    VmOperation{"add", 2, binary<Op::add>},
+    VmOperation{"max", 2, binary<Op::max>},
+    VmOperation{"min", 2, binary<Op::min>},
+    VmOperation{"sqrt", 1, unary<Op::sqrt>},
+    VmOperation{"mul", 2, binary<Op::mul>},
+    VmOperation{"abs", 1, unary<Op::abs>},
+    VmOperation{"neg", 1, unary<Op::neg>},
+    VmOperation{"div", 2, binary<Op::div>},
+    VmOperation{"exp", 1, unary<Op::exp>},
+    VmOperation{"ln", 1, unary<Op::log>},
+    VmOperation{"sin", 1, unary<Op::sin>},
+    VmOperation{"cos", 1, unary<Op::cos>},
+    VmOperation{"mod", 2, modulo},
+    VmOperation{"tan", 1, unary<Op::tan>},
+    VmOperation{"asin", 1, unary<Op::asin>},
+    VmOperation{"acos", 1, unary<Op::acos>},
+    VmOperation{"atan", 1, unary<Op::atan>},
+    VmOperation{"atan2", 2, binary<Op::atan2>},
+    VmOperation{"pow", 2, binary<Op::pow>},
+    VmOperation{"recip", 1, reciprocal},
+    VmOperation{"floor", 1, unary<Op::floor>},
+    VmOperation{"ceil", 1, unary<Op::ceil>},
+    VmOperation{"round", 1, unary<Op::round>},
+};
+
+constexpr std::array leaf_names{std::string_view("const"), std::string_view("var-x"),
+                                std::string_view("var-y"), std::string_view("var-z")};
+
+bool is_blank(char c) { return c == ' ' || c == '\t'; }
+
+/// Names of results and their nodes.
+class NameTable {
+  public:
+    explicit NameTable(std::size_t expected) : slots_(std::bit_ceil(2 * expected + 16)) {}
+
+    /// The node of `name`; nothing when it is unknown.
+    const NodeId* find(std::string_view name) const {
+        const Slot& slot = slots_[place(name)];
+        return slot.name.data() == nullptr ? nullptr : &slot.node;
+    }
+    /// Adds a name; false when it is there already. There is room for the expected number of names.
+    bool add(std::string_view name, NodeId node) {
+        Slot& slot = slots_[place(name)];
+        if (slot.name.data() != nullptr) return false;
+        slot = {name, node};
+        return true;
+    }
+
+  private:
+    struct Slot {
+        std::string_view name;
+        NodeId node = 0;
+    };
+
+    std::size_t place(std::string_view name) const {
+        std::uint64_t hash = 0xcbf29ce484222325u;  // FNV-1a
+        for (const char c : name) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
+        hash ^= hash >> 29;
+        std::size_t at = hash & (slots_.size() - 1);
+        while (slots_[at].name.data() != nullptr && slots_[at].name != name)
+            at = (at + 1) & (slots_.size() - 1);
+        return at;
+    }
+
+    std::vector<Slot> slots_;
+};
+
+class VmTextReader {
+  public:
+    VmTextReader(const Source& source, Reporter& report)
+        : source_(source), report_(report), names_(source.line_count()) {}
+
+    std::optional<Field> read() {
+        for (std::uint32_t number = 1; number <= source_.line_count() && !report_.stopped(); ++number)
+            read_line(source_.line(number));
+        if (report_.errors() > 0) return std::nullopt;
+        if (!result_) {
+            report_.error(Code::vm_without_result, {}, {"the file has no operation", "", ""});
+            return std::nullopt;
+        }
+        std::vector<NodeId> roots{graph_.make(Op::neg, {*result_})};
+        if (graph_.over_limit()) return std::nullopt;
+        Field field;
+        field.graph = std::make_shared<const Graph>(compact(graph_, roots));
+        field.value = roots[0];
+        field.coordinates = uses_z_ ? 3 : 2;
+        return field;
+    }
+
+  private:
+    /// A name, an operation and at most two operands; more are an error.
+    struct Words {
+        std::array<std::string_view, 4> word;
+        std::size_t count = 0;
+    };
+
+    Span span_of(std::string_view part) const {
+        const auto begin = static_cast<std::uint32_t>(part.data() - source_.text().data());
+        return {begin, begin + static_cast<std::uint32_t>(part.size())};
+    }
+
+    void error(Code code, std::string_view at, std::string message, std::string label, std::string help) {
+        report_.error(code, span_of(at), {std::move(message), std::move(label), std::move(help)});
+    }
+
+    bool split(std::string_view line, Words& out) {
+        std::size_t i = 0;
+        while (true) {
+            while (i < line.size() && is_blank(line[i])) ++i;
+            if (i == line.size() || (out.count == 0 && line[i] == '#')) return true;
+            const std::size_t begin = i;
+            while (i < line.size() && !is_blank(line[i])) ++i;
+            const std::string_view word = line.substr(begin, i - begin);
+            if (out.count == out.word.size()) {
+                error(Code::vm_malformed_line, word, "an operation has at most two operands", "too much",
+                      "a line is: name operation operands");
+                return false;
+            }
+            out.word[out.count++] = word;
+        }
+    }
+
+    void read_line(std::string_view line) {
+        Words words;
+        if (!split(line, words) || words.count == 0) return;
+        if (words.count == 1) {
+            error(Code::vm_malformed_line, words.word[0], "the line has a name but no operation", "",
+                  "a line is: name operation operands");
+            return;
+        }
+        const auto node = read_operation(words);
+        if (!node) return;
+        if (graph_.over_limit()) {
+            const auto limit = fmt::format("more than {} operations", Graph::node_limit);
+            report_.fatal(Code::vm_too_large, span_of(line), {limit, "the limit is reached here", ""});
+            return;
+        }
+        if (!names_.add(words.word[0], *node)) {
+            error(Code::vm_name_twice, words.word[0],
+                  fmt::format("{} has a value already", Reporter::quote(words.word[0])), "defined again",
+                  "every name is assigned once");
+            return;
+        }
+        result_ = *node;
+    }
+
+    std::optional<NodeId> read_operation(const Words& words) {
+        const std::string_view name = words.word[1];
+        graph_.set_origin(span_of(name));
+        if (name == "const") return read_constant(words);
+        if (name.size() == 5 && name.starts_with("var-") && name[4] >= 'x' && name[4] <= 'z') {
+            if (!has_operands(words, 0)) return std::nullopt;
+            uses_z_ = uses_z_ || name[4] == 'z';
+            return graph_.coordinate(name[4] - 'x');
+        }
+        for (const VmOperation& operation : operations) {
+            if (operation.name != name) continue;
+            if (!has_operands(words, operation.arity)) return std::nullopt;
+            std::array<NodeId, 2> operands{};
+            for (std::size_t i = 0; i < static_cast<std::size_t>(operation.arity); ++i) {
+                const NodeId* found = names_.find(words.word[2 + i]);
+                if (!found) return refuse_operand(words.word[2 + i]);
+                operands[i] = *found;
+            }
+            return operation.build(graph_, operands[0], operands[1]);
+        }
+        return refuse_operation(name);
+    }
+
+    std::optional<NodeId> read_constant(const Words& words) {
+        if (!has_operands(words, 1)) return std::nullopt;
+        const std::string_view text = words.word[2];
+        double value = 0;
+        const auto [end, status] = std::from_chars(text.data(), text.data() + text.size(), value);
+        const bool whole = end == text.data() + text.size() && status == std::errc();
+        if (!whole || value - value != 0) {
+            error(Code::vm_malformed_line, text, fmt::format("{} is no number", Reporter::quote(text)), "",
+                  "a finite decimal number is expected");
+            return std::nullopt;
+        }
+        return graph_.constant(value);
+    }
+
+    bool has_operands(const Words& words, int arity) {
+        const auto given = static_cast<int>(words.count) - 2;
+        if (given == arity) return true;
+        error(Code::vm_operand_count, words.word[1],
+              fmt::format("{} takes {} operand{}, not {}", Reporter::quote(words.word[1]), arity,
+                          arity == 1 ? "" : "s", given),
+              "", "");
+        return false;
+    }
+
+    std::nullopt_t refuse_operand(std::string_view name) {
+        error(Code::vm_unknown_operand, name, fmt::format("{} has no value yet", Reporter::quote(name)),
+              "no line before this one defines it", "");
+        return std::nullopt;
+    }
+
+    std::nullopt_t refuse_operation(std::string_view name) {
+        std::vector<std::string_view> known(leaf_names.begin(), leaf_names.end());
+        for (const VmOperation& operation : operations) known.push_back(operation.name);
+        const std::string_view near = nearest_name(name, known);
+        error(Code::vm_unknown_operation, name,
+              fmt::format("there is no operation {}", Reporter::quote(name)), "",
+              near.empty() ? "" : fmt::format("did you mean `{}`?", near));
+        return std::nullopt;
+    }
+
+    const Source& source_;
+    Reporter& report_;
+    NameTable names_;
+    Graph graph_;
+    std::optional<NodeId> result_;
+    bool uses_z_ = false;
+};
+
+}  // namespace
+
+std::optional<Field> parse_vm_text(const Source& source, Reporter& report) {
+    if (source.text().size() > source_limit) {
+        report.fatal(Code::vm_too_large, {},
+                     {fmt::format("the file is longer than {} MiB", source_limit >> 20), "", ""});
+        return std::nullopt;
+    }
+    return VmTextReader(source, report).read();
+}
+
+}  // namespace frep::lang
