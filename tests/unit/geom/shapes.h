@@ -39,6 +39,50 @@ inline Mesh box(Vec3 min, Vec3 max) {
     return mesh;
 }
 
+/// The filled cells of a rectilinear grid with the planes xs, ys, zs, as a closed mesh: two triangles for
+/// each side between a filled cell and an empty one. `filled(i, j, k)` tells of the cell behind plane i, j,
+/// k.
+template <class Filled>
+Mesh cell_solid(const std::vector<double>& xs, const std::vector<double>& ys, const std::vector<double>& zs,
+                Filled filled) {
+    const int counts[3] = {static_cast<int>(xs.size()), static_cast<int>(ys.size()),
+                           static_cast<int>(zs.size())};
+    const auto is_filled = [&](const int(&c)[3]) {
+        for (int a = 0; a < 3; ++a) {
+            if (c[a] < 0 || c[a] + 1 >= counts[a]) return false;
+        }
+        return static_cast<bool>(filled(c[0], c[1], c[2]));
+    };
+    Mesh mesh;
+    const auto corner = [&](const int(&c)[3]) {
+        mesh.vertices.push_back({xs[static_cast<std::size_t>(c[0])], ys[static_cast<std::size_t>(c[1])],
+                                 zs[static_cast<std::size_t>(c[2])]});
+        return static_cast<std::uint32_t>(mesh.vertices.size() - 1);
+    };
+    for (int n = 0; n < counts[0] * counts[1] * counts[2]; ++n) {
+        const int cell[3] = {n % counts[0], n / counts[0] % counts[1], n / counts[0] / counts[1]};
+        if (!is_filled(cell)) continue;
+        for (int side = 0; side < 6; ++side) {
+            const int a = side / 2, u = (a + 1) % 3, v = (a + 2) % 3;
+            int beside[3] = {cell[0], cell[1], cell[2]}, at[3] = {cell[0], cell[1], cell[2]};
+            beside[a] += side % 2 == 1 ? 1 : -1;
+            if (is_filled(beside)) continue;
+            at[a] += side % 2;
+            std::array<std::uint32_t, 4> quad{};
+            for (std::size_t k = 0; k < 4; ++k) {
+                int p[3] = {at[0], at[1], at[2]};
+                p[u] += k == 1 || k == 2 ? 1 : 0;
+                p[v] += k >= 2 ? 1 : 0;
+                quad[k] = corner(p);
+            }
+            if (side % 2 == 0) std::swap(quad[1], quad[3]);
+            mesh.triangles.push_back({quad[0], quad[1], quad[2]});
+            mesh.triangles.push_back({quad[0], quad[2], quad[3]});
+        }
+    }
+    return merge_equal_positions(mesh);
+}
+
 /// The mesh with its other side outward.
 inline Mesh turned_inside_out(Mesh mesh) {
     for (Triangle& t : mesh.triangles) std::swap(t[1], t[2]);
