@@ -1,5 +1,7 @@
 #include "frep/shapes/library_page.h"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 namespace frep::shapes {
@@ -16,7 +18,9 @@ constexpr std::string_view introduction =
     "degenerate arguments, as the old tools do, with a warning where that is known before evaluation. "
     "Functions marked\n"
     "*new* are not in the old library: a model's own names may stand in their place. Sources are keys of\n"
-    "[bibliography.md](bibliography.md).\n";
+    "[bibliography.md](bibliography.md). The examples are the files of `examples/library/`; "
+    "`scripts/gallery` makes\n"
+    "their pictures.\n";
 
 /// Text that may stand in a Markdown table or paragraph.
 std::string escaped(std::string_view text) {
@@ -37,6 +41,17 @@ std::string entry(const LibraryFunction& f) {
     return out + "\n";
 }
 
+/// The picture and the text of an example, without the lines of annotations.
+std::string shown_example(std::string_view name, std::string_view text) {
+    std::string body;
+    while (!text.empty()) {
+        const std::size_t end = std::min(text.find('\n'), text.size() - 1) + 1;
+        if (!text.starts_with("--@")) body += text.substr(0, end);
+        text.remove_prefix(end);
+    }
+    return fmt::format("![{0}](library/{0}.png)\n\n```\n{1}```\n\n", name, body);
+}
+
 }  // namespace
 
 std::string signature(const LibraryFunction& function) {
@@ -50,13 +65,16 @@ std::string signature(const LibraryFunction& function) {
     return out + ')';
 }
 
-std::string library_page() {
+std::string library_page(const std::function<std::string(std::string_view name)>& example) {
     std::string out(introduction);
-    std::string_view group;
+    std::string_view group, name;
     for (const LibraryFunction& f : library()) {
         if (f.group != group) out += fmt::format("\n## {}\n\n", f.group);
-        group = f.group;
         out += entry(f);
+        const std::string text = f.name == name ? "" : example(f.name);
+        if (!text.empty()) out += shown_example(f.name, text);
+        group = f.group;
+        name = f.name;
     }
     while (out.ends_with("\n\n")) out.pop_back();
     return out;

@@ -7,14 +7,33 @@
 
 #include "frep/shapes/library_page.h"
 
-TEST_CASE("docs/library.md is up to date") {
-    const std::string path = FREP_SOURCE_DIR "/docs/library.md";
-    const std::string page = frep::shapes::library_page();
-    if (std::getenv("FREP_UPDATE_DOCS")) std::ofstream(path, std::ios::binary) << page;
-    std::ifstream file(path, std::ios::binary);
+namespace {
+
+/// The bytes of a file of the source tree; empty when there is none.
+std::string read(const std::string& path) {
+    std::ifstream file(FREP_SOURCE_DIR "/" + path, std::ios::binary);
     std::ostringstream text;
     text << file.rdbuf();
-    CHECK_MESSAGE(text.str() == page, "run the test with FREP_UPDATE_DOCS=1 and commit the page");
+    return text.str();
+}
+
+std::string example(std::string_view name) { return read("examples/library/" + std::string(name) + ".hf"); }
+
+}  // namespace
+
+TEST_CASE("every function has an example that calls it") {
+    for (const auto& f : frep::shapes::library()) {
+        CAPTURE(f.name);
+        CHECK(example(f.name).find(std::string(f.name) + "(") != std::string::npos);
+    }
+}
+
+TEST_CASE("docs/library.md is up to date") {
+    const std::string page = frep::shapes::library_page(example);
+    if (std::getenv("FREP_UPDATE_DOCS"))
+        std::ofstream(FREP_SOURCE_DIR "/docs/library.md", std::ios::binary) << page;
+    CHECK_MESSAGE(read("docs/library.md") == page,
+                  "run the test with FREP_UPDATE_DOCS=1 and commit the page");
 }
 
 TEST_CASE("every row is described in whole sentences") {

@@ -1,0 +1,101 @@
+// The gallery: every model of examples/ says where it comes from, compiles without a finding and, if it is a
+// solid, meshes to a closed, oriented manifold at three resolutions; a flat one gives closed outlines. The
+// models of examples/library/ compile and are not empty. scripts/gallery renders them all.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "frep/frep.h"
+
+using namespace frep;
+
+namespace {
+
+const std::filesystem::path examples = std::filesystem::path(FREP_SOURCE_DIR) / "examples";
+
+std::vector<std::filesystem::path> models_in(const std::filesystem::path& folder) {
+    std::vector<std::filesystem::path> out;
+    for (const auto& entry : std::filesystem::directory_iterator(folder))
+        if (entry.path().extension() == ".hf") out.push_back(entry.path());
+    std::sort(out.begin(), out.end());
+    return out;
+}
+
+struct Loaded {
+    Model model;
+    Field field;
+    Box3 box;
+};
+
+/// The model with its default parameters; its findings must be none.
+Loaded load(const std::filesystem::path& path) {
+    auto model = compile_file(path.string());
+    REQUIRE_MESSAGE(static_cast<bool>(model), (model ? "" : model.error().message));
+    Diagnostics findings = model->diagnostics();
+    const auto object = model->find_object("");
+    REQUIRE(object);
+    const auto lowered = model->lower(*object, model->complete_parameters(*object, {}), findings);
+    CHECK_MESSAGE(findings.list().empty(), render(findings, model->source()));
+    REQUIRE(lowered);
+    std::vector<double> pairs = model->program().annotations.bounds;
+    const auto n = static_cast<std::size_t>(lowered->field.coordinates);
+    REQUIRE(pairs.size() == 2 * n);
+    pairs.resize(std::max<std::size_t>(pairs.size(), 6));
+    if (n == 2) pairs[4] = -1, pairs[5] = 1;
+    return {
+        std::move(*model), lowered->field, {{pairs[0], pairs[2], pairs[4]}, {pairs[1], pairs[3], pairs[5]}}};
+}
+
+}  // namespace
+
+TEST_CASE("every model of the gallery says where it comes from and what may be changed") {
+    const auto models = models_in(examples);
+    CHECK(models.size() >= 16);
+    for (const auto& path : models) {
+        CAPTURE(path.filename().string());
+        const Loaded loaded = load(path);
+        const lang::Annotations& notes = loaded.model.program().annotations;
+        CHECK_FALSE(notes.title.empty());
+        CHECK_FALSE(notes.author.empty());
+        CHECK_FALSE(notes.license.empty());
+        CHECK(length_unit(notes.units).has_value());
+        REQUIRE_FALSE(notes.parameters.empty());
+        for (const auto& parameter : notes.parameters) {
+            CAPTURE(parameter.name);
+            CHECK(parameter.low < parameter.high);
+        }
+    }
+}
+
+TEST_CASE("every solid of the gallery gives a closed, oriented manifold at three resolutions") {
+    for (const auto& path : models_in(examples)) {
+        const Loaded loaded = load(path);
+        if (loaded.field.coordinates < 3) continue;
+        for (const int cells : {48, 72, 96}) {
+            CAPTURE(path.filename().string());
+            CAPTURE(cells);
+            const auto surface = contour(loaded.field, {.bounds = loaded.box, .cells = cells});
+            REQUIRE(static_cast<bool>(surface));
+            const MeshReport report = check(surface->mesh);
+            CHECK(report.triangles > 0);
+            CHECK(report.closed);
+            CHECK(report.manifold);
+            CHECK(report.oriented);
+        }
+    }
+}
+
+TEST_CASE("every example of the library gives a surface") {
+    for (const auto& path : models_in(examples / "library")) {
+        CAPTURE(path.filename().string());
+        const Loaded loaded = load(path);
+        if (loaded.field.coordinates < 3) continue;
+        const auto surface = contour(loaded.field, {.bounds = loaded.box, .cells = 32});
+        REQUIRE(static_cast<bool>(surface));
+        CHECK_FALSE(surface->mesh.triangles.empty());
+        CHECK(std::count(surface->touches.begin(), surface->touches.end(), true) == 0);
+    }
+}
