@@ -37,7 +37,7 @@ double coordinate_limit(const SceneView& scene, MeshFormat format) {
     constexpr double binary32 = std::numeric_limits<float>::max();
     if (format == MeshFormat::off) return std::numeric_limits<double>::max();
     const double scale = is_in_metres(format)            ? scene.unit.metres
-                         : format == MeshFormat::threemf ? scene.unit.metres * 1000
+                         : format == MeshFormat::threemf ? encode::scale_3mf(scene.unit).factor
                                                          : 1;
     return scale > 1 ? binary32 / scale : binary32;
 }

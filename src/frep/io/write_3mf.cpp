@@ -23,14 +23,6 @@ struct Unit {
 constexpr std::array units{Unit{"micron", 1e-6}, Unit{"millimeter", 1e-3}, Unit{"centimeter", 1e-2},
                            Unit{"inch", 0.0254}, Unit{"foot", 0.3048},     Unit{"meter", 1}};
 
-/// The format's unit of that length; millimetres, with a factor, for another.
-std::pair<std::string_view, double> unit_and_scale(const LengthUnit& unit) {
-    for (const Unit& known : units) {
-        if (known.metres == unit.metres) return {known.name, 1};
-    }
-    return {"millimeter", unit.metres * 1000};
-}
-
 /// The vertices that are written and the triangles on them; `corner` keeps the mesh's own numbers, for
 /// colors.
 struct Solid {
@@ -190,9 +182,9 @@ void append_object(std::string& out, std::uint64_t id, const ObjectView& object,
 }
 
 std::string model_part(const SceneView& scene) {
-    const auto [unit, scale] = unit_and_scale(scene.unit);
+    const Scale3mf scale = scale_3mf(scene.unit);
     std::string out = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<model";
-    append_attribute(out, "unit", unit);
+    append_attribute(out, "unit", scale.unit);
     out +=
         " xml:lang=\"en-US\" xmlns=\"http://schemas.microsoft.com/3dmanufacturing/core/2015/02\" "
         "xmlns:m=\"http://schemas.microsoft.com/3dmanufacturing/material/2015/02\">\n";
@@ -205,7 +197,7 @@ std::string model_part(const SceneView& scene) {
     std::uint64_t id = 1;
     out += " <resources>\n";
     for (const ObjectView& object : scene.objects) {
-        const Solid solid = solid_of(*object.mesh, scale);
+        const Solid solid = solid_of(*object.mesh, scale.factor);
         if (solid.triangles.empty()) continue;
         append_object(out, id, object, solid);
         items += "  <item";
@@ -234,6 +226,13 @@ constexpr std::string_view relationships =
     "</Relationships>\n";
 
 }  // namespace
+
+Scale3mf scale_3mf(const LengthUnit& unit) {
+    for (const Unit& known : units) {
+        if (known.metres == unit.metres) return {known.name, 1};
+    }
+    return {"millimeter", unit.metres * 1000};
+}
 
 Result<std::string> write_3mf(const SceneView& scene) {
     return zip({{"[Content_Types].xml", std::string(content_types)},

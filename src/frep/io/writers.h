@@ -36,6 +36,14 @@ std::string write_x3d(const SceneView& scene);
 Result<std::string> write_3mf(const SceneView& scene);
 std::string write_pov(const SceneView& scene);
 
+/// The unit of a 3MF model for lengths in `unit`, and the factor to it: 1 where the format knows the unit,
+/// else the one to millimetres.
+struct Scale3mf {
+    std::string_view unit;
+    double factor = 1;
+};
+Scale3mf scale_3mf(const LengthUnit& unit);
+
 // --- what several writers need
 
 /// The color of vertex `i`: the material's base color, times the vertex's own in linear light if the mesh

@@ -4,9 +4,12 @@
 #include <doctest/doctest.h>
 
 #include <cstring>
+#include <filesystem>
 #include <limits>
 
+#include "frep/io/file.h"
 #include "unit/geom/shapes.h"
+#include "unit/io/scenes.h"
 
 using namespace frep;
 
@@ -38,6 +41,12 @@ TEST_CASE("the extension names the format") {
     CHECK(*mesh_format_from_path("a/b.off") == MeshFormat::off);
     CHECK(*mesh_format_from_path("B.PLY") == MeshFormat::ply);
     CHECK(*mesh_format_from_path("x.tar.Stl") == MeshFormat::stl);
+    CHECK(*mesh_format_from_path("a.obj") == MeshFormat::obj);
+    CHECK(*mesh_format_from_path("a.glb") == MeshFormat::glb);
+    CHECK(*mesh_format_from_path("a.wrl") == MeshFormat::vrml);
+    CHECK(*mesh_format_from_path("a.x3d") == MeshFormat::x3d);
+    CHECK(*mesh_format_from_path("a.3MF") == MeshFormat::threemf);
+    CHECK(*mesh_format_from_path("a.pov") == MeshFormat::pov);
     for (const char* path : {"", "plain", "a.stl/plain", "a.txt", "stl"}) {
         const Result<MeshFormat> format = mesh_format_from_path(path);
         REQUIRE_FALSE(static_cast<bool>(format));
@@ -81,6 +90,49 @@ TEST_CASE("PLY in binary") {
     CHECK(with_normals.find("property float nz\n") != std::string::npos);
 }
 
+TEST_CASE("several objects are joined, with the colors of all where one has some") {
+    Scene scene = test::two_tetrahedra();
+    scene.objects[0].mesh.triangles.resize(1);
+    scene.objects[1].mesh.triangles.resize(1);
+    CHECK(test::encoded(scene, MeshFormat::off) ==
+          "COFF\n8 2 0\n0 0 0 1.0000 0.0000 0.0000 1.0\n1 0 0 0.0000 1.0000 0.0000 1.0\n"
+          "0 1 0 0.0000 0.0000 1.0000 1.0\n0 0 1 1.0000 1.0000 1.0000 1.0\n"
+          "2 0 0 1.0000 0.5000 0.0000 1.0\n3 0 0 1.0000 0.5000 0.0000 1.0\n"
+          "2 1 0 1.0000 0.5000 0.0000 1.0\n2 0 1 1.0000 0.5000 0.0000 1.0\n3 0 2 1\n3 4 6 5\n");
+    const std::string text = test::encoded(scene, MeshFormat::ply, true);
+    CHECK(test::contains(
+        text, "property float z\nproperty uchar red\nproperty uchar green\nproperty uchar blue\n"));
+    CHECK(test::contains(text, "\n1 0 0 0 255 0\n"));
+    CHECK(test::contains(text, "\n3 0 0 255 128 0\n"));
+    CHECK(test::contains(text, "\n3 0 2 1\n3 4 6 5\n"));
+    const std::string binary = test::encoded(scene, MeshFormat::ply);
+    REQUIRE(binary.size() > 8 * 15 + 2 * 13);
+    const std::string body = binary.substr(binary.size() - 8 * 15 - 2 * 13);
+    CHECK(body.substr(15 + 12, 3) == std::string("\0\xff\0", 3));  // the second vertex is green
+    CHECK(body.substr(8 * 15 + 13) == std::string("\3\4\0\0\0\6\0\0\0\5\0\0\0", 13));
+    CHECK(number_at<std::uint32_t>(test::encoded(scene, MeshFormat::stl), 80) == 2);
+}
+
+TEST_CASE("a mesh with colors keeps them, one without gets none") {
+    Mesh mesh = test::tetrahedron();
+    CHECK(encoded(mesh, MeshFormat::ply).find("uchar red") == std::string::npos);
+    mesh.colors.assign(4, {0.2, 0.4, 0.6});
+    CHECK(encoded(mesh, MeshFormat::ply, true).find("\n1 0 0 51 102 153\n") != std::string::npos);
+}
+
+TEST_CASE("a file is written with its side files") {
+    const std::filesystem::path folder = std::filesystem::temp_directory_path() / "frep-write-files-test";
+    std::filesystem::create_directories(folder);
+    const std::string path = (folder / "pot.obj").string();
+    const EncodedFiles files =
+        test::encoded_files(test::two_tetrahedra(), MeshFormat::obj, {.stem = stem_of_path(path)});
+    CHECK(static_cast<bool>(write_files(path, files)));
+    CHECK(*read_file(path, 10000) == files.bytes);
+    CHECK(*read_file((folder / "pot.mtl").string(), 10000) == files.side_files.at(0).bytes);
+    CHECK_FALSE(static_cast<bool>(write_files((folder / "none" / "pot.obj").string(), files)));
+    std::filesystem::remove_all(folder);
+}
+
 TEST_CASE("STL in binary: no date, not 'solid', 50 bytes a facet") {
     const std::string bytes = encoded(test::tetrahedron(), MeshFormat::stl);
     REQUIRE(bytes.size() == 84 + 4 * 50);
@@ -109,7 +161,9 @@ TEST_CASE("what a format cannot hold is refused") {
     Mesh mesh = test::tetrahedron();
     mesh.vertices[2].y = 1e39;
     CHECK(static_cast<bool>(encode_mesh(mesh, MeshFormat::off)));
-    for (const MeshFormat format : {MeshFormat::ply, MeshFormat::stl}) {
+    for (const MeshFormat format :
+         {MeshFormat::ply, MeshFormat::stl, MeshFormat::obj, MeshFormat::glb, MeshFormat::vrml,
+          MeshFormat::x3d, MeshFormat::threemf, MeshFormat::pov}) {
         const Result<std::string> bytes = encode_mesh(mesh, format);
         REQUIRE_FALSE(static_cast<bool>(bytes));
         CHECK(bytes.error().message.find("vertex 2") != std::string::npos);
@@ -119,4 +173,14 @@ TEST_CASE("what a format cannot hold is refused") {
     mesh = test::tetrahedron();
     mesh.triangles[0][0] = 7;
     CHECK_FALSE(static_cast<bool>(encode_mesh(mesh, MeshFormat::off)));
+    Scene scene = test::two_tetrahedra();
+    scene.objects[1].mesh.vertices[0].x = 1e37;
+    scene.unit = *length_unit("m");
+    CHECK(static_cast<bool>(encode_scene(scene, MeshFormat::threemf)));  // 3MF knows the metre
+    scene.unit = {"km", 1000};
+    CHECK_FALSE(static_cast<bool>(encode_scene(scene, MeshFormat::threemf)));
+    CHECK_FALSE(static_cast<bool>(encode_scene(scene, MeshFormat::glb)));
+    CHECK(static_cast<bool>(encode_scene(scene, MeshFormat::stl)));
+    scene.unit = {"nothing", 0};
+    CHECK_FALSE(static_cast<bool>(encode_scene(scene, MeshFormat::stl)));
 }
