@@ -74,22 +74,14 @@ Status check_sizes(const FieldPictureOptions& o) {
 
 }  // namespace
 
-Result<Layout> make_layout(const FieldPictureOptions& options) {
-    if (const Status status = check_sizes(options); !status) return status.error();
-    Layout out;
+namespace {
+
+/// The room for the plot when the labels of the upright axis are `up_labels` wide, and what follows from it:
+/// the size of the picture, plot, window and axes.
+Status place_plot(const FieldPictureOptions& options, double up_labels, Layout& out) {
     const bool automatic = options.width == 0;
-    if (!automatic) {
-        const double size = std::sqrt(static_cast<double>(options.width) * options.height);
-        out.letter = std::clamp(size / 75, 6.5, 200.0);
-    }
     const double letter = out.letter;
-    const auto up_room = [&](double height) {
-        return [=](const Labels&) { return std::max(1.0, height / (2.6 * letter)); };
-    };
-    // The labels of the upright axis take their width from the plot, the plot its height from the picture.
-    const double guess = automatic ? usual_side : options.height - 9 * letter;
-    const Axis first = make_axis(options.part.min.y, options.part.max.y, {}, up_room(guess));
-    const Margins m = margins_of(options, widest(first.labels, letter), letter);
+    const Margins m = margins_of(options, up_labels, letter);
     const double width = automatic ? usual_side : options.width - m.left - m.right;
     const double height = automatic ? usual_side : options.height - m.top - m.bottom;
     if (width < 4 * letter || height < 4 * letter)
@@ -99,19 +91,39 @@ Result<Layout> make_layout(const FieldPictureOptions& options) {
     const Result<Window> window = Window::around(options.part, plot.columns, plot.rows);
     if (!window) return window.error();
     out.window = *window;
-    const Rectangle seen = window->rectangle();
-
     out.width = automatic ? plot.columns + static_cast<int>(m.left + m.right) : options.width;
     out.height = automatic ? plot.rows + static_cast<int>(m.top + m.bottom) : options.height;
     out.plot.left = m.left + std::floor((out.width - m.left - m.right - plot.columns) / 2);
     out.plot.top = m.top + std::floor((out.height - m.top - m.bottom - plot.rows) / 2);
     out.plot.right = out.plot.left + plot.columns;
     out.plot.bottom = out.plot.top + plot.rows;
-    out.up = make_axis(seen.min.y, seen.max.y, options.up_name, up_room(plot.rows));
+    const Rectangle seen = window->rectangle();
+    out.up = make_axis(seen.min.y, seen.max.y, options.up_name,
+                       [&](const Labels&) { return std::max(1.0, plot.rows / (2.6 * letter)); });
     out.right = make_axis(seen.min.x, seen.max.x, options.right_name, [&](const Labels& labels) {
         return std::max(1.0, plot.columns / (widest(labels, letter) + 1.8 * letter));
     });
+    return {};
+}
 
+}  // namespace
+
+Result<Layout> make_layout(const FieldPictureOptions& options) {
+    if (const Status status = check_sizes(options); !status) return status.error();
+    Layout out;
+    if (options.width > 0) {
+        const double size = std::sqrt(static_cast<double>(options.width) * options.height);
+        out.letter = std::clamp(size / 75, 6.5, 200.0);
+    }
+    const double letter = out.letter;
+    // The labels of the upright axis take their width from the plot, and the plot decides about the labels.
+    double up_labels = 2 * letter;
+    for (int pass = 0; pass < 4; ++pass) {
+        if (const Status status = place_plot(options, up_labels, out); !status) return status.error();
+        const double needed = widest(out.up.labels, letter);
+        if (pass > 0 && needed <= up_labels) break;
+        up_labels = pass == 0 ? needed : std::max(up_labels, needed);
+    }
     out.point = std::round(1.3 * letter);
     out.bar.left = out.plot.right + std::round(1.8 * letter);
     out.bar.right = out.bar.left + std::round(1.5 * letter);
@@ -125,6 +137,11 @@ void add_swatch(Layout& layout) {
     const double side = std::round(1.5 * layout.letter);
     layout.swatch = {layout.bar.left, layout.plot.bottom - side, layout.bar.right, layout.plot.bottom};
     layout.bar.bottom = layout.swatch.top - std::round(0.9 * layout.letter) - layout.point;
+}
+
+void trim(Layout& layout, double label_width) {
+    const double right = std::ceil(layout.bar_labels + label_width + 1.2 * layout.letter);
+    layout.width = std::min(layout.width, static_cast<int>(right));
 }
 
 }  // namespace frep::drawing

@@ -38,4 +38,7 @@ Result<Layout> make_layout(const FieldPictureOptions& options);
 /// Moves the foot of the bar up to make room for the sample of the hatching.
 void add_swatch(Layout& layout);
 
+/// Takes away what a picture without a stated size has to the right of `label_width` pixels of labels.
+void trim(Layout& layout, double label_width);
+
 }  // namespace frep::drawing

@@ -138,7 +138,8 @@ Levels choose_levels(std::span<const double> samples, int count) {
         low = std::min(low, 0.0);
         high = std::max(high, 0.0);
     }
-    Ticks ticks = round_ticks(low, high, count);
+    // Round steps lie a factor of 2 or 2.5 apart: up to 7/5 of the wish keeps the number near to it.
+    Ticks ticks = round_ticks(low, high, count + 2 * count / 5);
     if (ticks.values.empty()) return out;
     out.step = ticks.step;
     out.values = std::move(ticks.values);

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <optional>
+#include <string_view>
 #include <utility>
 
 #include "frep/base/parallel.h"
@@ -25,6 +25,7 @@ using namespace drawing;
 constexpr Color paper{1, 1, 1}, ink{0.1, 0.1, 0.1}, hatch_light{0.90, 0.90, 0.90},
     hatch_dark{0.62, 0.62, 0.62};
 constexpr int samples_a_side = 2;
+constexpr std::string_view undefined_label = "undefined";
 
 /// Draws a figure, part by part.
 class Figure {
@@ -33,10 +34,12 @@ class Figure {
         : options_(options),
           layout_(std::move(layout)),
           levels_(levels),
-          colors_(band_colors(levels.values)),
-          canvas_(layout_.width, layout_.height, paper) {
+          labels_(levels.uniform ? tick_labels({levels.step, levels.values}) : number_labels(levels.values)),
+          colors_(band_colors(levels.values)) {
         for (const Color& color : colors_) linear_.push_back(linear_from_srgb(color));
         if (levels_.undefined > 0) add_swatch(layout_);
+        if (options.width == 0) trim(layout_, right_of_bar());
+        canvas_ = Canvas(layout_.width, layout_.height, paper);
     }
 
     void draw_values(const Lattice& lattice, const std::vector<double>& values);
@@ -55,19 +58,31 @@ class Figure {
     Color hatching(double x, double y) const;
     double x_of(double v) const;
     double y_of(double v) const;
+    double right_of_bar() const;
     void draw_right_axis();
     void draw_up_axis();
-    void draw_bar_bands(double step);
-    void draw_bar_numbers(double step);
+    double level_y(std::size_t i) const;
+    void draw_bar_bands();
+    void draw_bar_numbers();
     bool below_first() const { return levels_.lowest < levels_.values.front(); }
     bool above_last() const { return levels_.highest > levels_.values.back(); }
 
     const FieldPictureOptions& options_;
     Layout layout_;
     const Levels& levels_;
+    Labels labels_;  ///< of the levels
     std::vector<Color> colors_, linear_;
-    Canvas canvas_;
+    Canvas canvas_{1, 1, paper};
 };
+
+/// The width of what is written beside the bar, at most what the layout reserves.
+double Figure::right_of_bar() const {
+    double width =
+        text_width(options_.value_name + labels_.factor, letter()) - (layout_.bar_labels - layout_.bar.left);
+    for (const std::string& text : labels_.texts) width = std::max(width, text_width(text, letter()));
+    if (levels_.undefined > 0) width = std::max(width, text_width(undefined_label, letter()));
+    return std::min(width, bar_label_letters * letter());
+}
 
 /// Grey paper with darker stripes from the lower left to the upper right.
 Color Figure::hatching(double x, double y) const {
@@ -166,13 +181,26 @@ void Figure::draw_axes() {
                  {layout_.plot.left, layout_.plot.top - 1.3 * letter()}, TextAnchor::start, style(1.2), ink);
 }
 
-/// Bands of equal height between the levels, and pointed ends where values lie beyond them.
-void Figure::draw_bar_bands(double step) {
+/// The height of level i: evenly spaced, from the foot of the bar to its head; a single one in the middle.
+double Figure::level_y(std::size_t i) const {
+    const std::size_t count = levels_.values.size();
+    const double share =
+        count == 1 ? 0.5 : static_cast<double>(i) / static_cast<double>(std::max<std::size_t>(count - 1, 1));
+    return layout_.bar.bottom - share * layout_.bar.height();
+}
+
+/// The bands between the levels, and pointed ends where values lie beyond them. A single level parts the bar.
+void Figure::draw_bar_bands() {
     const PixelBox& bar = layout_.bar;
     const std::size_t count = levels_.values.size();
-    for (std::size_t i = 1; i < count; ++i) {
-        const double bottom = bar.bottom - static_cast<double>(i - 1) * step;
-        canvas_.fill({bar.left, bottom - step, bar.right, bottom}, colors_[i]);
+    const bool single = count == 1;
+    const auto band = [&](double bottom, double top, std::size_t color) {
+        canvas_.fill({bar.left, top, bar.right, bottom}, colors_[color]);
+    };
+    for (std::size_t i = 1; i < count; ++i) band(level_y(i - 1), level_y(i), i);
+    if (single) {
+        band(bar.bottom, level_y(0), 0);
+        band(level_y(0), bar.top, 1);
     }
     std::vector<Segment> outline{{{bar.left, bar.top}, {bar.left, bar.bottom}},
                                  {{bar.right, bar.top}, {bar.right, bar.bottom}}};
@@ -186,11 +214,11 @@ void Figure::draw_bar_bands(double step) {
         outline.push_back({a, c});
         outline.push_back({c, b});
     };
-    end(above_last(), bar.top, bar.top - layout_.point, colors_[count]);
-    end(below_first(), bar.bottom, bar.bottom + layout_.point, colors_[0]);
+    end(above_last() && !single, bar.top, bar.top - layout_.point, colors_[count]);
+    end(below_first() && !single, bar.bottom, bar.bottom + layout_.point, colors_[0]);
     std::vector<Segment> thin, bold;
     for (std::size_t i = 0; i < count; ++i) {
-        const double y = bar.bottom - static_cast<double>(i) * step;
+        const double y = level_y(i);
         (levels_.values[i] == 0 ? bold : thin).push_back({{bar.left, y}, {bar.right, y}});
     }
     canvas_.stroke(thin, 0.8 * line(), ink, 0.45, canvas_.whole());
@@ -199,10 +227,10 @@ void Figure::draw_bar_bands(double step) {
 }
 
 /// A number for every level where there is room, else for every second, fifth ... counted from zero.
-void Figure::draw_bar_numbers(double step) {
+void Figure::draw_bar_numbers() {
     const PixelBox& bar = layout_.bar;
     const std::vector<double>& values = levels_.values;
-    const Labels labels = levels_.uniform ? tick_labels({levels_.step, values}) : number_labels(values);
+    const double step = bar.height() / static_cast<double>(values.size());
     std::size_t anchor = 0;
     for (std::size_t i = 0; i < values.size(); ++i) {
         if (values[i] == 0) anchor = i;
@@ -214,13 +242,13 @@ void Figure::draw_bar_numbers(double step) {
     }
     for (std::size_t i = 0; i < values.size(); ++i) {
         if ((i + stride * values.size() - anchor) % stride != 0) continue;
-        const double y = bar.bottom - static_cast<double>(i) * step;
-        const std::string text = fitted_text(labels.texts[i], letter(), bar_label_letters * letter());
+        const double y = level_y(i);
+        const std::string text = fitted_text(labels_.texts[i], letter(), bar_label_letters * letter());
         canvas_.text(text, {layout_.bar_labels, y + middle()}, TextAnchor::start, style(), ink);
     }
-    const double above = above_last() ? layout_.point : 0;
-    const std::string caption =
-        fitted_text(options_.value_name + labels.factor, letter(), layout_.width - bar.left - 0.5 * letter());
+    const double above = above_last() && values.size() > 1 ? layout_.point : 0;
+    const std::string caption = fitted_text(options_.value_name + labels_.factor, letter(),
+                                            layout_.width - bar.left - 0.5 * letter());
     canvas_.text(caption, {bar.left, bar.top - above - 1.0 * letter()}, TextAnchor::start, style(), ink);
 }
 
@@ -233,15 +261,13 @@ void Figure::draw_bar() {
         }
         canvas_.frame(swatch, line(), ink);
         const double room = layout_.width - layout_.bar_labels - 0.4 * letter();
-        canvas_.text(fitted_text("undefined", letter(), room),
+        canvas_.text(fitted_text(undefined_label, letter(), room),
                      {layout_.bar_labels, (swatch.top + swatch.bottom) / 2 + middle()}, TextAnchor::start,
                      style(), ink);
     }
     if (levels_.defined == 0) return;
-    const double step =
-        layout_.bar.height() / static_cast<double>(std::max<std::size_t>(levels_.values.size() - 1, 1));
-    draw_bar_bands(step);
-    draw_bar_numbers(step);
+    draw_bar_bands();
+    draw_bar_numbers();
 }
 
 Status check_levels(const FieldPictureOptions& options) {
