@@ -10,7 +10,8 @@ using namespace frep;
 
 TEST_CASE("what goes in comes out") {
     std::string numbers;
-    for (std::uint64_t i = 0; i < 300000; ++i) numbers += std::to_string(i * 7919 % 100003);  // more than one piece
+    for (std::uint64_t i = 0; i < 300000; ++i)
+        numbers += std::to_string(i * 7919 % 100003);  // more than one piece
     REQUIRE(numbers.size() > (std::size_t{1} << 20));
     const std::vector<ZipEntry> entries{{"a/\xe6\xbc\x86.txt", "hello"},
                                         {"empty", ""},
