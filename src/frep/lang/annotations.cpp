@@ -15,8 +15,8 @@
 namespace frep::lang {
 namespace {
 
-constexpr std::array<std::string_view, 9> keys{"title",  "author", "license", "source",  "units",
-                                               "bounds", "param",  "color",   "hyperfun"};
+constexpr std::array<std::string_view, 11> keys{"title", "author", "license",  "source", "units",   "bounds",
+                                                "param", "color",  "material", "view",   "hyperfun"};
 
 bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\f'; }
 bool is_word(char c) {
@@ -104,6 +104,8 @@ class Reader {
                          "remove one of the two lines"});
         if (key == "bounds") return bounds(cursor);
         if (key == "color") return color(cursor);
+        if (key == "material") return material(cursor);
+        if (key == "view") return view(cursor);
         if (key == "hyperfun") return dialect(cursor, line, key_place);
         text_of(key) = std::string(cursor.rest());
     }
@@ -127,9 +129,9 @@ class Reader {
         const std::string_view near = nearest_name(key, {keys.begin(), keys.end()});
         warn(Code::annotation_unknown_key, place,
              {fmt::format("there is no annotation {}", Reporter::quote(key)), "unknown key",
-              near.empty()
-                  ? "known are title, author, license, source, units, bounds, param, color and hyperfun"
-                  : fmt::format("did you mean `{}`?", near)});
+              near.empty() ? "known are title, author, license, source, units, bounds, param, color, "
+                             "material, view and hyperfun"
+                           : fmt::format("did you mean `{}`?", near)});
     }
 
     /// Numbers up to the end of the line, separated by blanks or commas; false, with a report, for others.
@@ -193,6 +195,29 @@ class Reader {
                 Code::annotation_malformed, place,
                 {"a color is three numbers from 0 to 1", {}, "write red, green and blue: --@ color 1 0.5 0"});
         out_.color = std::move(values);
+    }
+
+    // material = word; which words mean something is the renderer's business
+    void material(Cursor& cursor) {
+        const Span place = cursor.span_of_rest();
+        const std::string_view name = cursor.word();
+        if (name.empty() || !cursor.done())
+            return warn(Code::annotation_malformed, place,
+                        {"a material is one word", {}, "write for instance --@ material lacquer"});
+        out_.material = lower_case(name);
+    }
+
+    // view = azimuth elevation
+    void view(Cursor& cursor) {
+        const Span place = cursor.span_of_rest();
+        std::vector<double> values;
+        if (!numbers(cursor, values)) return;
+        if (values.size() != 2 || values[1] < -90 || values[1] > 90)
+            return warn(Code::annotation_malformed, place,
+                        {"a view is two angles in degrees, the second from -90 to 90",
+                         {},
+                         "write azimuth and elevation: --@ view 30 20"});
+        out_.view = std::move(values);
     }
 
     // dialect = "2" | "3", in the file's first line

@@ -154,6 +154,8 @@ struct Annotations {
     std::string title, author, license, source, units;
     std::vector<double> bounds;  ///< 2 n numbers: min max for each axis; empty when absent
     std::vector<double> color;   ///< 3 numbers 0..1 (sRGB); empty when absent
+    std::string material;        ///< of pictures, lower case; empty when absent
+    std::vector<double> view;    ///< of pictures: azimuth and elevation in degrees; empty when absent
     std::vector<ParameterAnnotation> parameters;
     int dialect = 2;  ///< 3 after `--@ hyperfun 3` as the first line
 };

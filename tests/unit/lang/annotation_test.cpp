@@ -69,6 +69,17 @@ TEST_CASE("a wrong line leaves nothing behind") {
     CHECK(parse.diagnostics.list().size() == 7);
 }
 
+TEST_CASE("the look of a model in pictures") {
+    const Parse parse = annotated("--@ material Lacquer\n--@ view -30, 12.5");
+    CHECK(findings(parse) == std::vector<std::string>{});
+    CHECK(parse.program.annotations.material == "lacquer");
+    CHECK(parse.program.annotations.view == std::vector<double>{-30, 12.5});
+    const Parse wrong = annotated("--@ material red lacquer\n--@ view 30\n--@ view 0 91");
+    CHECK(wrong.program.annotations.material.empty());
+    CHECK(wrong.program.annotations.view.empty());
+    CHECK(wrong.diagnostics.list().size() == 3);
+}
+
 TEST_CASE("the first of two lines counts") {
     const Parse parse =
         annotated("--@ title one\n--@ title two\n--@ param a[1] u\n--@ param a[1] v\n--@ param a[2] U");
