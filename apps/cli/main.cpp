@@ -33,6 +33,7 @@ constexpr std::array verbs = {
     Verb{"explain", "a diagnostic explained, with an example", run_explain},
     Verb{"eval", "the function's values, gradients or intervals at points", run_eval},
     Verb{"mesh", "the surface of a model as a triangle mesh", run_mesh},
+    Verb{"convert", "a mesh file in another format, or a model in an exchange form", run_convert},
     Verb{"field", "the function on a plane as a figure", run_field},
     Verb{"render", "a picture of a solid", run_render},
 };

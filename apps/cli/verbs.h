@@ -25,6 +25,7 @@ int run_info(Arguments arguments);
 int run_explain(Arguments arguments);
 int run_eval(Arguments arguments);
 int run_mesh(Arguments arguments);
+int run_convert(Arguments arguments);
 int run_field(Arguments arguments);
 int run_render(Arguments arguments);
 

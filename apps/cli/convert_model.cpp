@@ -1,0 +1,114 @@
+// A model as an isosurface of POV-Ray. Tested by tests/cli/convert.txt.
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "box.h"
+#include "convert.h"
+#include "json.h"
+#include "terminal.h"
+#include "values.h"
+#include "verbs.h"
+
+namespace frep::cli {
+
+namespace {
+
+constexpr std::size_t samples_a_side = 32;
+
+/// The largest slope of F at samples near the surface (so near that it may cross their cell), a quarter
+/// added; without such samples, the largest of all, else 1.
+double sampled_gradient(SampledField& field, const Box3& box) {
+    const std::size_t n = samples_a_side, batch = n * n;
+    const Vec3 step = (box.max - box.min) / static_cast<double>(n);
+    const double reach = std::sqrt(dot(step, step));
+    std::vector<double> columns[7];
+    for (auto& column : columns) column.resize(batch);
+    double near = 0, all = 0;
+    for (std::size_t k = 0; k < n; ++k) {
+        for (std::size_t p = 0; p < batch; ++p) {
+            columns[0][p] = box.min.x + (static_cast<double>(p % n) + 0.5) * step.x;
+            columns[1][p] = box.min.y + (static_cast<double>(p / n) + 0.5) * step.y;
+            columns[2][p] = box.min.z + (static_cast<double>(k) + 0.5) * step.z;
+        }
+        field.gradients({columns[0], columns[1], columns[2]}, columns[3],
+                        {columns[4], columns[5], columns[6]});
+        for (std::size_t p = 0; p < batch; ++p) {
+            const Vec3 g{columns[4][p], columns[5][p], columns[6][p]};
+            const double slope = std::sqrt(dot(g, g));
+            if (!std::isfinite(slope) || !std::isfinite(columns[3][p])) continue;
+            all = std::max(all, slope);
+            if (std::fabs(columns[3][p]) <= 2 * reach * slope) near = std::max(near, slope);
+        }
+    }
+    const double found = near > 0 ? near : all;
+    return found > 0 ? 1.25 * found : 1;
+}
+
+int refuse_target(const ConvertOptions& options, MeshFormat target) {
+    if (target != MeshFormat::pov) {
+        print_error(fmt::format("a model has no triangles that {} could hold", format_extension(target)));
+        print_help_line(
+            fmt::format("`frep mesh {} -o {}` makes a mesh of it", options.model.input, *options.output));
+        return exit_usage;
+    }
+    if (options.unit || options.merge || options.ascii)
+        return usage_error("--unit, --merge and --ascii belong to mesh files");
+    return exit_ok;
+}
+
+}  // namespace
+
+int convert_model(const ConvertOptions& options, MeshFormat target) {
+    if (const int refused = refuse_target(options, target)) return refused;
+    std::optional<Box3> stated;
+    if (options.bounds) {
+        const auto box = parse_bounds(*options.bounds);
+        if (!box) return usage_error("--bounds: " + box.error().message);
+        stated = *box;
+    }
+    lang::PovIsosurfaceOptions pov;
+    if (options.max_gradient) {
+        const auto slope = parse_positive(*options.max_gradient);
+        if (!slope) return usage_error("--max-gradient: " + slope.error().message);
+        pov.max_gradient = *slope;
+    }
+    int code = exit_ok;
+    const auto prepared = prepare_model(options.model, code);
+    if (!prepared) return code;
+    for (int axis = 0; axis < 3; ++axis)
+        if (!prepared->map.uses(axis))
+            return usage_error(fmt::format(
+                "no coordinate of the object is mapped to {}; an isosurface needs x, y and z", "xyz"[axis]));
+    auto evaluator = make_evaluator(prepared->field(), prepared->evaluator);
+    if (!evaluator) return fail(evaluator.error());
+    auto field = make_sampled_field(std::move(*evaluator), prepared->map);
+    if (!field) return fail(field.error());
+    const auto box = choose_box(*prepared, stated, **field, Job{});
+    if (!box) return fail(box.error());
+    pov.box = *box;
+    if (!options.max_gradient) pov.max_gradient = sampled_gradient(**field, *box);
+    for (const MappedCoordinate& c : prepared->map.coordinates) pov.coordinates.push_back({c.axis, c.value});
+    const auto& notes = prepared->model.program().annotations;
+    pov.title = notes.title;
+    if (notes.color.size() == 3) pov.color = {notes.color[0], notes.color[1], notes.color[2]};
+    pov.source = &prepared->model.source();
+    const auto text = lang::pov_isosurface(prepared->field(), pov);
+    if (!text) return fail(text.error());
+    if (const int failed = write_converted(options, {*text, {}})) return failed;
+    print_summary(
+        fmt::format("an isosurface of {} bytes, max_gradient {:.6g}", text->size(), pov.max_gradient));
+    if (!options.json) return exit_ok;
+    const auto corner = [](const Vec3& p) {
+        return Json::array({json_number(p.x), json_number(p.y), json_number(p.z)});
+    };
+    return print_result(json_bytes({{"schema", "frep.convert/1"},
+                                    {"input_format", "model"},
+                                    {"output_format", "pov"},
+                                    {"bounds", Json::array({corner(box->min), corner(box->max)})},
+                                    {"max_gradient", json_number(pov.max_gradient)}}));
+}
+
+}  // namespace frep::cli
