@@ -39,7 +39,8 @@ void append_material(std::string& out, const Material& material) {
     out += " } }\n";
 }
 
-void append_geometry(std::string& out, const ObjectView& object, double metres) {
+void append_geometry(std::string& out, const ObjectView& object, const std::vector<Triangle>& triangles,
+                     double metres) {
     const Mesh& mesh = *object.mesh;
     out += "   geometry IndexedFaceSet {\n    solid FALSE\n    coord Coordinate { point [\n";
     for (const Vec3& v : mesh.vertices) {
@@ -64,7 +65,7 @@ void append_geometry(std::string& out, const ObjectView& object, double metres) 
         out += "    ] }\n";
     }
     out += "    coordIndex [\n";
-    for (const Triangle& t : mesh.triangles) {
+    for (const Triangle& t : triangles) {
         for (const std::uint32_t v : t) {
             append_number(out, v);
             out.push_back(' ');
@@ -81,7 +82,8 @@ std::string write_vrml(const SceneView& scene) {
     append_world(out, scene);
     UniqueNames names;
     for (const ObjectView& object : scene.objects) {
-        if (object.mesh->triangles.empty()) continue;
+        const std::vector<Triangle> triangles = proper_triangles(object.mesh->triangles);
+        if (triangles.empty()) continue;
         out += "DEF " + names.unique(identifier(object.name, "object_")) + " Group { children [\n";
         if (!object.name.empty()) {
             out += "  WorldInfo { title ";
@@ -90,7 +92,7 @@ std::string write_vrml(const SceneView& scene) {
         }
         out += "  Shape {\n";
         append_material(out, object.material);
-        append_geometry(out, object, scene.unit.metres);
+        append_geometry(out, object, triangles, scene.unit.metres);
         out += "  }\n] }\n";
     }
     return out;

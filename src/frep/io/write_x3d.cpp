@@ -52,9 +52,9 @@ void append_material(std::string& out, const Material& material) {
     out += "\"/></Appearance>\n";
 }
 
-void append_indices(std::string& out, const Mesh& mesh) {
+void append_indices(std::string& out, const std::vector<Triangle>& triangles) {
     out += "    <IndexedFaceSet solid=\"false\" coordIndex=\"\n";
-    for (const Triangle& t : mesh.triangles) {
+    for (const Triangle& t : triangles) {
         for (const std::uint32_t v : t) {
             append_number(out, v);
             out.push_back(' ');
@@ -105,12 +105,13 @@ std::string write_x3d(const SceneView& scene) {
     append_world(out, "  ", scene.title);
     UniqueNames names;
     for (const ObjectView& object : scene.objects) {
-        if (object.mesh->triangles.empty()) continue;
+        const std::vector<Triangle> triangles = proper_triangles(object.mesh->triangles);
+        if (triangles.empty()) continue;
         out += "  <Group DEF=\"" + names.unique(identifier(object.name, "object_")) + "\">\n";
         append_world(out, "   ", object.name);
         out += "   <Shape>\n";
         append_material(out, object.material);
-        append_indices(out, *object.mesh);
+        append_indices(out, triangles);
         append_vertices(out, object, scene.unit.metres);
         out += "    </IndexedFaceSet>\n   </Shape>\n  </Group>\n";
     }

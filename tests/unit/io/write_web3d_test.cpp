@@ -35,3 +35,18 @@ TEST_CASE("X3D: head, groups, names and geometry") {
     const std::string empty = encoded({}, MeshFormat::x3d);
     CHECK(contains(empty, " <Scene>\n </Scene>\n</X3D>\n"));
 }
+
+TEST_CASE("VRML and X3D: a triangle that names a vertex twice is no face") {
+    Scene scene;
+    Mesh mesh = tetrahedron();
+    mesh.triangles = {{0, 0, 1}, {0, 1, 2}};
+    scene.objects.push_back({"flat", mesh, {}});
+    for (const MeshFormat format : {MeshFormat::vrml, MeshFormat::x3d}) {
+        const std::string text = encoded(scene, format);
+        CHECK(contains(text, "\n0 1 2 -1\n"));
+        CHECK(count_of(text, " -1\n") == 1);
+    }
+    scene.objects[0].mesh.triangles.pop_back();
+    CHECK(encoded(scene, MeshFormat::vrml) == encoded({}, MeshFormat::vrml));
+    CHECK(encoded(scene, MeshFormat::x3d) == encoded({}, MeshFormat::x3d));
+}
