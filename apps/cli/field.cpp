@@ -30,6 +30,7 @@ class FieldRun {
         describe();
         const auto picture = field_picture(**sampled, plan_.picture, job_);
         if (!picture) return fail(picture.error());
+        warn(*picture);
         if (options_.output) {
             if (const int code = write(picture->image)) return code;
             print_summary(fmt::format(
@@ -97,6 +98,13 @@ class FieldRun {
         const bool titled = !notes.title.empty() && can_draw_text(notes.title);
         picture.title = titled ? notes.title : prepared_.header().written_name;
         if (prepared_.map.uses(picture.plane.normal())) picture.title += ", " + section_text();
+    }
+
+    static void warn(const FieldPicture& picture) {
+        if (picture.undefined == 0) return;
+        const double share =
+            100 * static_cast<double>(picture.undefined) / static_cast<double>(picture.samples);
+        print_warning(fmt::format("F is undefined in {:.3g} % of the picture, hatched there", share));
     }
 
     int write(const Image& image) const {

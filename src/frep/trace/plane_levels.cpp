@@ -30,9 +30,11 @@ int decimal_exponent(double value) {
 }
 
 /// Signs of typography: a true minus.
-std::string typeset(std::string text) {
-    if (text.starts_with('-')) text = "\xe2\x88\x92" + text.substr(1);
-    return text;
+std::string typeset(const std::string& text) {
+    if (!text.starts_with('-')) return text;
+    std::string out = "\xe2\x88\x92";
+    out.append(text, 1);
+    return out;
 }
 
 /// " (x10^e)" with superscript digits.

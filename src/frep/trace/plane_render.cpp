@@ -213,15 +213,15 @@ class TilePainter {
                 parts.emplace_back(&p, static_cast<int>(x_.size() - before));
             }
         }
-        std::array<std::vector<double>, 3> colors;
-        for (auto& column : colors) column.resize(x_.size());
-        const std::array<std::span<double>, 3> columns{colors[0], colors[1], colors[2]};
+        if (parts.empty()) return;
+        for (auto& column : colors_) column.assign(x_.size(), 0);
+        const std::array<std::span<double>, 3> columns{colors_[0], colors_[1], colors_[2]};
         field_.attributes({x_, y_, z_}, columns);
         std::size_t at = 0;
         for (const auto& [p, count] : parts) {
             p->color = {};
             for (int k = 0; k < count; ++k, ++at) {
-                const Color c = linear_color({colors[0][at], colors[1][at], colors[2][at]});
+                const Color c = linear_color({colors_[0][at], colors_[1][at], colors_[2][at]});
                 p->color = {p->color.r + c.r / count, p->color.g + c.g / count, p->color.b + c.b / count};
             }
         }
@@ -238,6 +238,7 @@ class TilePainter {
     const Window& window_;
     std::vector<Pixel>* pixels_ = nullptr;
     std::vector<double> x_, y_, z_, values_;
+    std::array<std::vector<double>, 3> colors_;
     std::vector<Block> crossed_;
 };
 
