@@ -1,4 +1,5 @@
-// The report of `frep mesh` (docs/cli.md) and the promises of `--require`. Tested by tests/cli/mesh.txt.
+// The report of `frep mesh` (docs/cli.md, docs/formats.md) and the promises of `--require`.
+// Tested by tests/cli/mesh.txt and mesh_report.txt.
 #pragma once
 
 #include <optional>
@@ -7,6 +8,7 @@
 #include <vector>
 
 #include "frep/frep.h"
+#include "json.h"
 
 namespace frep::cli {
 
@@ -16,11 +18,29 @@ struct RunFigures {
     int threads = 1;
     std::string_view engine;
 };
+Json run_json(const RunFigures& run);
+Json point_json(Vec3 p);
+Json point_json(Vec2 p);
 
-/// The report as the bytes of a JSON file.
-std::string report_bytes(const MeshReport& report, std::size_t undefined_points, const RunFigures& run);
+/// One object of the scene.
+struct ObjectFigures {
+    std::string name;
+    std::size_t vertices = 0, triangles = 0;
+};
 
-/// A list of closed, manifold, oriented. Errors: an unknown word, or one that this version cannot check.
+/// What is told of a mesh beside its MeshReport.
+struct MeshFigures {
+    std::uint64_t undefined_points = 0;
+    std::optional<Vec3> first_undefined;
+    std::optional<MeshError> error;
+    std::string_view unit;
+    std::vector<ObjectFigures> objects;
+};
+
+/// The report without "run".
+Json mesh_json(const MeshReport& report, const MeshFigures& figures);
+
+/// A list of closed, manifold, oriented, no-self-intersection. Errors: an unknown word.
 Result<std::vector<std::string>> parse_requirements(std::string_view text);
 
 /// Why the mesh breaks one of the promises: a sentence for each that it breaks.

@@ -52,7 +52,7 @@ class Assembly {
             return Error{ErrorKind::over_limit, "the mesh has more vertices than a 32-bit index can name"};
         }
         fill_missing_normals();
-        return AssembledMesh{std::move(mesh_), std::move(attributes_)};
+        return AssembledMesh{std::move(mesh_), nodes_, std::move(attributes_)};
     }
 
   private:

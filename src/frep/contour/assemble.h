@@ -17,6 +17,7 @@ namespace frep::contouring {
 
 struct AssembledMesh {
     Mesh mesh;
+    std::size_t edge_vertices = 0;  ///< vertices on edges of cells; the others follow them
     std::vector<std::vector<double>>
         attributes;  ///< one column an attribute, a number a vertex; NaN: undefined
 };

@@ -99,6 +99,7 @@ Result<ContourResult> contour_cells(const SampledField& field, const ContourOpti
 
     ContourResult result;
     result.mesh = std::move(mesh->mesh);
+    result.edge_vertices = mesh->edge_vertices;
     result.attributes = std::move(mesh->attributes);
     result.grid = *grid;
     result.sampled_blocks = octree->blocks.size();

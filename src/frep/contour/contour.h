@@ -32,7 +32,8 @@ struct ContourOptions {
 };
 
 struct ContourResult {
-    Mesh mesh;                                    ///< with outward unit normals
+    Mesh mesh;                      ///< with outward unit normals
+    std::size_t edge_vertices = 0;  ///< the first vertices lie on edges of cells, the others inside of cells
     std::vector<std::vector<double>> attributes;  ///< a column for each, a number a vertex; NaN: undefined
     Grid grid;
     std::uint64_t undefined_points = 0;   ///< samples of the lattice where F is undefined

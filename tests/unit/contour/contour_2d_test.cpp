@@ -184,7 +184,7 @@ TEST_CASE("planes: the axes, the height, and the side that is left") {
             REQUIRE(std::abs(std::sqrt(d.x * d.x + d.y * d.y) - row.radius) < 2e-4 * r.cell);
         }
     }
-    const PlaneContour cut = outlined(field, {.bounds = Box3::cube(0.9), .plane = {0, 2, 0.2}, .cells = 100});
+    const PlaneContour cut = outlined(field, {.bounds = Box3::cube(0.8), .plane = {0, 2, 0.2}, .cells = 100});
     CHECK(cut.touches == std::array<bool, 6>{true, true, false, false, false, true});
 }
 
