@@ -92,7 +92,7 @@ void collect_uses(const Mesh& mesh, const Stars& stars, Index v, std::vector<Edg
     for (std::uint64_t k = stars.start[v]; k < stars.start[v + 1]; ++k) {
         const Index t = stars.list[k];
         const Triangle& tri = mesh.triangles[t];
-        const int at = tri[0] == v ? 0 : tri[1] == v ? 1 : 2;
+        const std::size_t at = tri[0] == v ? 0 : tri[1] == v ? 1 : 2;
         uses.push_back({tri[(at + 1) % 3], t, true});
         uses.push_back({tri[(at + 2) % 3], t, false});
     }

@@ -53,7 +53,7 @@ TEST_CASE("exact next to a plane, for coordinates of 38 bits") {
         const int bits = 4 + random.below(30);
         const std::int64_t range = std::int64_t{1} << bits;
         const auto coordinate = [&] {
-            return static_cast<std::int64_t>(random.next() % (2 * range)) - range;
+            return static_cast<std::int64_t>(random.next() % static_cast<std::uint64_t>(2 * range)) - range;
         };
         const Integers a{coordinate(), coordinate(), coordinate()};
         const Integers b{coordinate(), coordinate(), coordinate()};
