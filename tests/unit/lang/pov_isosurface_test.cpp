@@ -215,8 +215,10 @@ TEST_CASE("POV-Ray: arithmetic and elementary functions have the engine's values
 TEST_CASE("POV-Ray: set operations, branches and truth") {
     check_same(compiled(
         "a1 = 1 - x[1]^2; b = x[2] - x[3]; c = 0.5 - x[2]^2;\nmy_model = ((a1 & b) | c) \\ (x[1] - 0.5);"));
-    check_same(compiled("if (x[1] > 0.3) then my_model = x[2]; else my_model = x[3] - 2; endif;"));
-    check_same(compiled("my_model = (x[1] <= x[2]) + 2*(x[2] > x[3]) + 4*(x[1] = x[3]);"));
+    check_same(compiled("if (x[1] > 0.3) then v = x[2]; else v = x[3] - 2; endif;\nmy_model = v;"));
+    check_same(
+        compiled("u = 0; if ((x[1] <= x[2]) and (not (x[2] > x[3]))) then u = 1; endif;\nw = 0; if ((x[1] < "
+                 "0) or (x[2] = x[3])) then w = 2; endif;\nmy_model = u + w - 1.5;"));
 }
 
 TEST_CASE("POV-Ray: blends") {
@@ -278,7 +280,8 @@ TEST_CASE("POV-Ray: the sample pot") {
     REQUIRE(bool(model));
     auto field = model->field();
     REQUIRE(bool(field));
-    const auto text = lang::pov_isosurface(*field, {.title = "pot\n#declare x = 1;", .source = nullptr});
+    const auto text =
+        lang::pov_isosurface(*field, {.coordinates = {}, .title = "pot\n#declare x = 1;", .source = nullptr});
     REQUIRE(bool(text));
     CHECK(text->find("\n#declare x") == std::string::npos);  // a title ends no comment
     check_same({*model, *field, *text});
@@ -298,8 +301,9 @@ TEST_CASE("POV-Ray: axes, box and sign") {
 }
 
 TEST_CASE("POV-Ray: what it cannot do is refused by name and place") {
-    CHECK(refusal("my_model = x[1]\n + hfNoiseG(x, 1, 1, 1);").find("line 4: ") == 0);
-    const std::string message = refusal("my_model = hfEllipsoidD(x, 0, 1, 2, 3);");
+    CHECK(refusal("my_model = x[1]\n + hfA_NoiseP(x);").find("line 4: ") == 0);
+    const std::string message =
+        refusal("array c[3]; c = [0, 0, 0];\nmy_model = hfDEllipsoid(x, c, 1, 2, 3);");
     CHECK(message.find("ellipsoid_distance") != std::string::npos);
     CHECK(message.find("frep mesh") != std::string::npos);
 }
