@@ -1,8 +1,6 @@
 // The scalar walk over the graph; see reference.h. Regions are in reference_region.cpp.
 #include "frep/eval/reference.h"
 
-#include <type_traits>
-
 #include "frep/eval/float_control.h"
 #include "frep/field/kernels/basic.h"
 #include "frep/field/meaning.h"
@@ -24,9 +22,8 @@ GraphWalk<T>::GraphWalk(const Field& field, std::span<const NodeId> roots, std::
     for (NodeId id = 0; id < needed.size(); ++id) {
         if (!needed[id]) continue;
         order_.push_back(id);
-        if constexpr (!std::is_same_v<T, math::Interval>)
-            if (field.graph->node(id).op == Op::region)
-                regions_.try_emplace(id, field.graph->region_of(id), max_steps);
+        if (field.graph->node(id).op == Op::region)
+            regions_.try_emplace(id, field.graph->region_of(id), max_steps);
     }
 }
 
@@ -39,7 +36,7 @@ template <class T>
 T GraphWalk<T>::compute(NodeId id, std::span<const T> coordinates) {
     const Graph& graph = *field_.graph;
     const Node& node = graph.node(id);
-    if (node.op == Op::output) return region_output(graph.arguments(id)[0], node.payload);
+    if (node.op == Op::output) return regions_.at(graph.arguments(id)[0]).cells()[node.payload];
     arguments_.clear();
     for (const NodeId argument : graph.arguments(id)) arguments_.push_back(values_[argument]);
     switch (node.op) {
@@ -50,7 +47,7 @@ T GraphWalk<T>::compute(NodeId id, std::span<const T> coordinates) {
         case Op::parameter:
             return math::constant<T>(field_.parameters[node.payload]);
         case Op::region:
-            if constexpr (!std::is_same_v<T, math::Interval>) regions_.at(id).run(arguments_);
+            regions_.at(id).run(arguments_);
             return undefined<T>();
         case Op::undefined:
             return undefined<T>();
@@ -59,20 +56,8 @@ T GraphWalk<T>::compute(NodeId id, std::span<const T> coordinates) {
     }
 }
 
-/// An interval of a region is unknown, but for one that surely does not run.
 template <class T>
-T GraphWalk<T>::region_output(NodeId region, std::uint32_t cell) const {
-    if constexpr (std::is_same_v<T, math::Interval>) {
-        const T guard = values_[field_.graph->arguments(region)[0]];
-        const bool never = guard.is_empty() || kernels::is_true(guard).surely_false();
-        return never ? T::empty() : T::entire().flagged(true);
-    } else {
-        return regions_.at(region).cells()[cell];
-    }
-}
-
-template <class T>
-const ScalarRegion<T>* GraphWalk<T>::region(NodeId id) const {
+auto GraphWalk<T>::region(NodeId id) const -> const RegionRun* {
     const auto found = regions_.find(id);
     return found == regions_.end() ? nullptr : &found->second;
 }

@@ -6,10 +6,12 @@
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <type_traits>
 #include <unordered_map>
 #include <vector>
 
 #include "frep/eval/evaluator.h"
+#include "frep/eval/region_interval.h"
 
 namespace frep {
 
@@ -48,17 +50,17 @@ class GraphWalk {
     /// Computes every node at one point or box.
     void run(std::span<const T> coordinates);
     const T& value(NodeId id) const { return values_[id]; }
-    /// After run(): the region of a node of kind region; nothing for intervals.
-    const ScalarRegion<T>* region(NodeId id) const;
+    using RegionRun = std::conditional_t<std::is_same_v<T, math::Interval>, IntervalRegion, ScalarRegion<T>>;
+    /// After run(): the region of a node of kind region.
+    const RegionRun* region(NodeId id) const;
 
   private:
     T compute(NodeId id, std::span<const T> coordinates);
-    T region_output(NodeId region, std::uint32_t cell) const;
 
     const Field& field_;
     std::vector<NodeId> order_;
     std::vector<T> values_, arguments_;
-    std::unordered_map<NodeId, ScalarRegion<T>> regions_;  ///< looked up, never iterated
+    std::unordered_map<NodeId, RegionRun> regions_;  ///< looked up, never iterated
 };
 
 /// The reference engine for `field`.

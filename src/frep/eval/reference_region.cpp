@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "frep/eval/reference.h"
+#include "frep/eval/region_nodes.h"
 #include "frep/field/kernels/basic.h"
 #include "frep/field/meaning.h"
 
@@ -17,36 +18,6 @@ T undefined() {
 double number_of(double value) { return value; }
 double number_of(const math::Dual<double>& value) { return value.value; }
 
-std::vector<NodeId> roots_of(const RegionStatement& statement) {
-    switch (statement.kind) {
-        case RegionStatement::Kind::assign: {
-            std::vector<NodeId> roots;
-            for (const auto& [cell, node] : statement.assignments) roots.push_back(node);
-            return roots;
-        }
-        case RegionStatement::Kind::store:
-            return {statement.index, statement.value};
-        default:
-            return {statement.condition};
-    }
-}
-
-/// The nodes below `roots`, arguments first. Work grows with what the roots need, not with the graph.
-std::vector<NodeId> nodes_below(const Graph& graph, std::vector<NodeId> open, std::vector<bool>& seen) {
-    std::vector<NodeId> found;
-    while (!open.empty()) {
-        const NodeId id = open.back();
-        open.pop_back();
-        if (seen[id]) continue;
-        seen[id] = true;
-        found.push_back(id);
-        for (const NodeId argument : graph.arguments(id)) open.push_back(argument);
-    }
-    for (const NodeId id : found) seen[id] = false;
-    std::sort(found.begin(), found.end());
-    return found;
-}
-
 /// Item of an array, counted from 0; -1 when the index is undefined or out of range.
 std::int64_t item_of(double index, const RegionArray& array) {
     const double rounded = math::round_half_up(index);
@@ -58,11 +29,11 @@ std::int64_t item_of(double index, const RegionArray& array) {
 
 template <class T>
 ScalarRegion<T>::ScalarRegion(const Region& region, std::int64_t max_steps)
-    : region_(region), max_steps_(max_steps), cells_(region.cell_count), values_(region.body.size()) {
-    std::vector<bool> seen(region.body.size(), false);
-    for (const RegionStatement& statement : region.statements)
-        needed_.push_back(nodes_below(region.body, roots_of(statement), seen));
-}
+    : region_(region),
+      max_steps_(max_steps),
+      needed_(nodes_by_statement(region)),
+      cells_(region.cell_count),
+      values_(region.body.size()) {}
 
 template <class T>
 void ScalarRegion<T>::run(std::span<const T> arguments) {

@@ -8,8 +8,10 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <type_traits>
 #include <vector>
 
+#include "frep/eval/region_interval.h"
 #include "frep/eval/tape.h"
 #include "frep/math/number.h"
 
@@ -36,6 +38,10 @@ struct Frame {
 template <class T>
 class RegionMachine;
 
+/// What runs a region: intervals have an executor of their own, which serves all engines.
+template <class T>
+using RegionRunner = std::conditional_t<std::is_same_v<T, math::Interval>, IntervalRegion, RegionMachine<T>>;
+
 /// Runs tapes; holds what is kept between instructions.
 template <class T>
 class Interpreter {
@@ -59,7 +65,7 @@ class Interpreter {
     void call_region(const Frame<T>& frame, const Instruction& step);
 
     const Tape* tape_;
-    std::vector<std::unique_ptr<RegionMachine<T>>> regions_;
+    std::vector<std::unique_ptr<RegionRunner<T>>> regions_;
     std::vector<Row<T>> sources_;  ///< operands of the instruction under way
     std::vector<T> scratch_;       ///< its constants
     std::vector<T> arguments_;     ///< one element's operands

@@ -80,9 +80,12 @@ Interpreter<T>::Interpreter(const Tape& tape, std::int64_t max_steps) : tape_(&t
     sources_.resize(most);
     scratch_.resize(most);
     arguments_.resize(most);
-    if constexpr (!std::is_same_v<T, math::Interval>)
-        for (const RegionCall& call : tape.regions)
+    for (const RegionCall& call : tape.regions) {
+        if constexpr (std::is_same_v<T, math::Interval>)
+            regions_.push_back(std::make_unique<IntervalRegion>(*call.code->region, max_steps));
+        else
             regions_.push_back(std::make_unique<RegionMachine<T>>(call, max_steps));
+    }
 }
 
 template <class T>
@@ -175,8 +178,7 @@ void Interpreter<T>::load(const Frame<T>& frame, const Instruction& step, const 
     }
 }
 
-/// The engine of intervals does not run regions: their results may be anything, unless the guard says that
-/// the region surely does not run.
+/// Intervals run box by box, lanes as a batch.
 template <class T>
 void Interpreter<T>::call_region(const Frame<T>& frame, const Instruction& step) {
     const RegionCall& call = tape_->regions[step.number];
@@ -184,9 +186,10 @@ void Interpreter<T>::call_region(const Frame<T>& frame, const Instruction& step)
     for (const auto& [cell, place] : call.outputs) outputs.push_back(target(frame, place));
     if constexpr (std::is_same_v<T, math::Interval>) {
         for (std::size_t i = 0; i < frame.count; ++i) {
-            const T guard = sources_[0][i];
-            const bool never = guard.is_empty() || kernels::is_true(guard).surely_false();
-            for (T* out : outputs) out[i] = never ? T::empty() : T::entire().flagged(true);
+            for (std::size_t k = 0; k < step.count; ++k) arguments_[k] = sources_[k][i];
+            regions_[step.number]->run({arguments_.data(), step.count});
+            for (std::size_t k = 0; k < outputs.size(); ++k)
+                outputs[k][i] = regions_[step.number]->cells()[call.outputs[k].first];
         }
     } else {
         regions_[step.number]->run({sources_.data(), step.count}, outputs, frame.count);

@@ -4,72 +4,12 @@
 #include <cmath>
 
 #include "unit/eval/engines.h"
+#include "unit/eval/region_maker.h"
 
 using namespace frep;
 using namespace frep_test;
 
 namespace {
-
-using Kind = RegionStatement::Kind;
-
-/// Writes a region by hand.
-struct Maker {
-    std::shared_ptr<Region> region = std::make_shared<Region>();
-
-    explicit Maker(std::uint32_t cells) { region->cell_count = cells; }
-    Graph& body() { return region->body; }
-    NodeId cell(std::uint32_t number) { return body().make(Op::cell, {}, number); }
-    NodeId number(double value) { return body().constant(value); }
-    NodeId make(Op op, std::initializer_list<NodeId> arguments) { return body().make(op, arguments); }
-    NodeId load(std::uint32_t array, NodeId index) { return body().make(Op::load, {index}, array); }
-
-    std::uint32_t add(RegionStatement statement) {
-        region->statements.push_back(std::move(statement));
-        return static_cast<std::uint32_t>(region->statements.size() - 1);
-    }
-    std::uint32_t assign(std::vector<std::pair<std::uint32_t, NodeId>> assignments) {
-        RegionStatement s;
-        s.assignments = std::move(assignments);
-        return add(std::move(s));
-    }
-    std::uint32_t store(std::uint32_t array, NodeId index, NodeId value) {
-        RegionStatement s;
-        s.kind = Kind::store;
-        s.array = array;
-        s.index = index;
-        s.value = value;
-        return add(std::move(s));
-    }
-    std::uint32_t branch(NodeId condition, std::vector<std::uint32_t> first,
-                         std::vector<std::uint32_t> second) {
-        RegionStatement s;
-        s.kind = Kind::branch;
-        s.condition = condition;
-        s.first = std::move(first);
-        s.second = std::move(second);
-        return add(std::move(s));
-    }
-    std::uint32_t loop(NodeId condition, std::vector<std::uint32_t> first) {
-        RegionStatement s;
-        s.kind = Kind::loop;
-        s.condition = condition;
-        s.first = std::move(first);
-        return add(std::move(s));
-    }
-};
-
-/// A field of coordinates x, y: cell `result` of the region started with (guard, x, y) in cells 0 and 1.
-Field field_of(Maker& maker, std::uint32_t result, double guard = 1.0) {
-    maker.region->inputs = {0, 1};
-    auto graph = std::make_shared<Graph>();
-    const NodeId arguments[3] = {graph->constant(guard), graph->coordinate(0), graph->coordinate(1)};
-    const NodeId region = graph->make_region(maker.region, arguments);
-    Field field;
-    field.coordinates = 2;
-    field.value = graph->make(Op::output, {region}, result);
-    field.graph = std::move(graph);
-    return field;
-}
 
 Columns<double> grid() {
     Columns<double> points(2, 41 * 41);
@@ -111,23 +51,6 @@ void check_against(const Field& field, Function function, std::int64_t max_steps
 }
 
 const double undefined = math::quiet_nan;
-
-/// z = z^2 + c from 0 while |z|^2 < 4 and fewer than `most` steps; cells: cx cy zx zy steps.
-Maker mandelbrot(double most) {
-    Maker m(5);
-    const NodeId zx = m.cell(2), zy = m.cell(3);
-    const NodeId size = m.make(Op::add, {m.make(Op::square, {zx}), m.make(Op::square, {zy})});
-    const NodeId go_on = m.make(Op::logical_and, {m.make(Op::less, {size, m.number(4.0)}),
-                                                  m.make(Op::less, {m.cell(4), m.number(most)})});
-    const NodeId next_x =
-        m.make(Op::add, {m.make(Op::sub, {m.make(Op::square, {zx}), m.make(Op::square, {zy})}), m.cell(0)});
-    const NodeId product = m.make(Op::mul, {zx, zy});
-    const NodeId next_y = m.make(Op::add, {m.make(Op::add, {product, product}), m.cell(1)});
-    const auto step = m.assign({{2, next_x}, {3, next_y}, {4, m.make(Op::add, {m.cell(4), m.number(1.0)})}});
-    const auto start = m.assign({{2, m.number(0.0)}, {3, m.number(0.0)}, {4, m.number(0.0)}});
-    m.region->program = {start, m.loop(go_on, {step})};
-    return m;
-}
 
 }  // namespace
 
@@ -275,22 +198,6 @@ TEST_CASE("a region with a false or undefined guard does nothing") {
     field.value = graph->make(Op::output, {graph->make_region(n.region, arguments)}, 0);
     field.graph = graph;
     check_against(field, [](double x, double y) { return x > 0 ? y : undefined; });
-}
-
-TEST_CASE("intervals of a region say nothing wrong") {
-    Maker m = mandelbrot(50);
-    const Field field = field_of(m, 4);
-    Maker never = mandelbrot(50);
-    const Field guarded = field_of(never, 4, 0.0);
-    Columns<math::Interval> box(2, 1);
-    box.columns = {{{-1, 1}}, {{-1, 1}}};
-    for (const Engine which : {Engine::reference, Engine::vm}) {
-        const math::Interval unknown = intervals_of(*engine(field, which), box, 1)[0];
-        CHECK(unknown.maybe_undefined);
-        CHECK(unknown.contains(-math::infinity));
-        CHECK(unknown.contains(math::infinity));
-        CHECK(intervals_of(*engine(guarded, which), box, 1)[0].is_empty());
-    }
 }
 
 TEST_CASE("a region with many cells runs in narrow batches") {

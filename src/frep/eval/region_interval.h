@@ -1,0 +1,69 @@
+// Regions over boxes: the program of a region (field/region.h) run once for all points of a box, with an
+// interval in every cell. One executor serves all engines, so that their enclosures are the same.
+//
+// Method: abstract interpretation without widening (P. and R. Cousot, POPL 1977). A condition that is the
+// same for all points takes one side; an undecided one runs both, and the stores are joined cell by cell. An
+// undecided loop condition sets the store aside as one that may leave, and goes on with the same store for
+// those that stay; what leaves is joined. Points whose condition is undefined or that take too many steps are
+// undefined as a whole, which the flag of every result says. Work is bounded: beyond the limits below the
+// answer is "anything, maybe undefined". Tested by tests/unit/eval/region_interval_test.cpp.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "frep/field/region.h"
+#include "frep/math/interval.h"
+
+namespace frep {
+
+class IntervalRegion {
+  public:
+    /// Undecided conditions in one run; nodes of expressions and cells of memory touched in one run; cells of
+    /// a region. Beyond them nothing is known.
+    static constexpr int undecided_limit = 256;
+    static constexpr std::int64_t work_limit = std::int64_t{1} << 18;
+    static constexpr std::uint32_t cell_limit = 4096;
+
+    /// `region` must outlive the object.
+    IntervalRegion(const Region& region, std::int64_t max_steps);
+
+    /// Runs on guard and start values; cells() then encloses the final contents for every point.
+    void run(std::span<const math::Interval> arguments);
+    const std::vector<math::Interval>& cells() const { return state_.cells; }
+
+  private:
+    /// What the points that are at one place of the program have in memory.
+    struct State {
+        std::vector<math::Interval> cells;
+        std::int64_t fewest_steps = 0, most_steps = 0;
+        bool reached = true;  ///< false: no point is here, and the rest says nothing
+    };
+    /// The sides that a condition may take.
+    struct Sides {
+        bool first = false, second = false;
+    };
+
+    void execute(std::span<const std::uint32_t> statements);
+    void branch(const RegionStatement& statement, std::uint32_t number);
+    void loop(const RegionStatement& statement, std::uint32_t number);
+    void store(const RegionStatement& statement);
+    Sides decide(const RegionStatement& statement, std::uint32_t number);
+    void evaluate(std::uint32_t number);
+    math::Interval load(const Node& node, math::Interval index);
+    void join(State& into, const State& other);
+    void work(std::size_t amount);
+
+    const Region& region_;
+    std::int64_t max_steps_;
+    std::vector<std::vector<NodeId>> needed_;  ///< by statement: nodes of body, ascending
+    State state_;
+    std::vector<math::Interval> values_, arguments_;
+    bool may_fail_ = false;  ///< some point may be undefined as a whole
+    bool given_up_ = false;  ///< a limit is reached
+    int undecided_ = 0;
+    std::int64_t work_ = 0;
+};
+
+}  // namespace frep
