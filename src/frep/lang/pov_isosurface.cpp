@@ -267,14 +267,14 @@ Result<std::string> pov_isosurface(const Field& field, const PovIsosurfaceOption
         "#version 3.7;\nglobal_settings { assumed_gamma 1 }\n";
     out += pov_prelude();
     out += *functions;
-    const Color& c = options.color;
+    const std::array<double, 3>& c = options.color;
     out += fmt::format(
         "#declare Frep_Object = isosurface {{\n function {{ -Frep_F(x,z,y) }}\n"
         " contained_by {{ box {{ {},{} }} }}\n threshold 0\n max_gradient {}\n accuracy {}\n"
         " pigment {{ srgb <{},{},{}> }}\n finish {{ ambient 0.1 diffuse 0.7 specular 0.3 roughness 0.02 "
         "}}\n}}\n",
         vector_text(options.box.min), vector_text(options.box.max), options.max_gradient,
-        1e-4 * length(options.box.max - options.box.min), c.r, c.g, c.b);
+        1e-4 * length(options.box.max - options.box.min), c[0], c[1], c[2]);
     return out + stage(options.box);
 }
 

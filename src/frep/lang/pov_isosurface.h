@@ -14,7 +14,6 @@
 #include "frep/base/result.h"
 #include "frep/base/source.h"
 #include "frep/field/field.h"
-#include "frep/geom/color.h"
 #include "frep/math/vec.h"
 
 namespace frep::lang {
@@ -28,10 +27,10 @@ struct PovCoordinate {
 struct PovIsosurfaceOptions {
     Box3 box{{-10, -10, -10}, {10, 10, 10}};  ///< contained_by, in model space; the surface is closed there
     double max_gradient = 1;  ///< at least the length of the gradient near the surface, else there are holes
-    Color color{0.78, 0.76, 0.72};           ///< sRGB
-    std::vector<PovCoordinate> coordinates;  ///< one for each of the field; empty: x, y, z, others 0
-    std::string title;                       ///< for a comment; may be empty
-    const Source* source = nullptr;          ///< the model's text, for places in messages
+    std::array<double, 3> color{0.78, 0.76, 0.72};  ///< R, G, B in 0..1, sRGB
+    std::vector<PovCoordinate> coordinates;         ///< one for each of the field; empty: x, y, z, others 0
+    std::string title;                              ///< for a comment; may be empty
+    const Source* source = nullptr;                 ///< the model's text, for places in messages
 };
 
 /// A scene file with the isosurface, a camera and a light; #include uses the object alone. Errors:
