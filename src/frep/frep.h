@@ -34,9 +34,9 @@
 #include "frep/io/drawing_format.h"
 #include "frep/io/file.h"
 #include "frep/io/mesh_format.h"
+#include "frep/io/png.h"
 #include "frep/io/read_mesh.h"
 #include "frep/io/slice_format.h"
-#include "frep/io/png.h"
 #include "frep/lang/explain.h"
 #include "frep/lang/limits.h"
 #include "frep/lang/model.h"
@@ -58,7 +58,8 @@ int numeric_profile();
 /// diagnostics.
 Result<Model> compile(std::string_view text, std::string name = "model.hf");
 
-/// The model in the file `path`, HyperFun or, by its extension, `.vm`. Files that it names are read from its folder only (no links, 1 GiB at most).
+/// The model in the file `path`, HyperFun or, by its extension, `.vm`. Files that it names are read from its
+/// folder only (no links, 1 GiB at most).
 /// Errors: as compile(); io and over_limit when the file cannot be read.
 Result<Model> compile_file(const std::string& path);
 
