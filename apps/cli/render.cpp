@@ -1,4 +1,5 @@
 // `frep render`: pictures of a solid. Tested by tests/cli/render.txt and render_usage.txt.
+#include <algorithm>
 #include <filesystem>
 #include <optional>
 
@@ -32,6 +33,7 @@ class RenderRun {
         if (!sampled) return fail(sampled.error());
         SceneOptions options;
         options.quality = plan_.quality;
+        options.longest_side = std::max(plan_.picture.width, plan_.picture.height);
         const auto box = choose_box(prepared_, plan_.bounds, **sampled, job_);
         if (!box) return fail(box.error());
         options.bounds = *box;
@@ -51,9 +53,23 @@ class RenderRun {
         const auto& notes = prepared_.model.program().annotations;
         if (!picture.color && notes.color.size() == 3)
             picture.color = Color{notes.color[0], notes.color[1], notes.color[2]};
+        if (notes.view.size() == 2) {
+            if (!plan_.has_azimuth) picture.view.azimuth = notes.view[0];
+            if (!plan_.has_elevation) picture.view.elevation = notes.view[1];
+        }
+        if (!picture.material && !notes.material.empty()) {
+            picture.material = find_material(notes.material);
+            if (!picture.material)
+                print_warning(fmt::format("--@ material: no material `{}`", notes.material));
+        }
         const bool has_colors = prepared_.field().attributes.size() >= 3;
         if (!picture.material && has_colors && !options_.base_color) picture.material = find_material("skin");
         if (!picture.material) picture.material = &materials().front();
+        if (has_colors && !options_.base_color && !picture.material->uses_attributes) {
+            finish_ = *picture.material;  // the model's own colors, with the finish of the material
+            finish_.uses_attributes = true;
+            picture.material = &finish_;
+        }
         if (picture.material->uses_attributes && !has_colors)
             print_warning("the model has no colors: material `skin` needs three attributes s[1..3]");
     }
@@ -116,6 +132,7 @@ class RenderRun {
     const RenderOptionTexts& options_;
     RenderPlan plan_;
     const PreparedModel& prepared_;
+    NamedMaterial finish_{};
     Job job_;
     double start_;
 };

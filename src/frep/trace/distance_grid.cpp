@@ -12,6 +12,7 @@ namespace frep::tracing {
 namespace {
 
 constexpr int block = 8;            ///< cells along the side of a block that is judged as one
+constexpr int finest = 2;           ///< and of the smallest such block
 constexpr int coarse_levels = 5;    ///< halvings of the box when the hull is looked for
 constexpr int margin = 2;           ///< cells around the hull
 constexpr int sampled_cells = 112;  ///< along the longest side, at most, where intervals say nothing
@@ -122,7 +123,7 @@ void DistanceGrid::place(const Box3& hull, int cells) {
     states_.assign(size(0) * size(1) * size(2), CellState::outside);
 }
 
-/// Blocks of cells, then their halves down to single cells, a row of blocks a task.
+/// Blocks of cells, then their halves, a row of blocks a task.
 void DistanceGrid::classify(FieldPool& fields, const Job& job) {
     const int bx = cells_[0] / block, by = cells_[1] / block, bz = cells_[2] / block;
     parallel_for(job, static_cast<std::size_t>(by * bz), [&](std::size_t task) {
@@ -132,7 +133,7 @@ void DistanceGrid::classify(FieldPool& fields, const Job& job) {
         for (int i = 0; i < bx; ++i) parts.push_back({i * block, j0, k0});
         std::vector<Box3> boxes;
         std::vector<SignRange> ranges;
-        for (int side = block; side >= 1; side /= 2) {
+        for (int side = block; side >= finest; side /= 2) {
             boxes.clear();
             next.clear();
             std::erase_if(parts, [&](const std::array<int, 3>& lo) {
@@ -152,7 +153,7 @@ void DistanceGrid::classify(FieldPool& fields, const Job& job) {
             for (std::size_t b = 0; b < parts.size(); ++b) {
                 const std::array<int, 3> lo = parts[b];
                 const CellState state = judge(ranges[b], boxes[b] == cell_box(lo, side));
-                if (state == CellState::mixed && side > 1) {
+                if (state == CellState::mixed && side > finest) {
                     for (int c = 0; c < 8; ++c)
                         next.push_back({lo[0] + (c & 1) * side / 2, lo[1] + (c >> 1 & 1) * side / 2,
                                         lo[2] + (c >> 2) * side / 2});
@@ -208,16 +209,19 @@ void DistanceGrid::classify_by_samples(FieldPool& fields, const Job& job) {
 void DistanceGrid::measure(FieldPool& fields, const Job& job) {
     distance_.assign(corners(0) * corners(1) * corners(2), 0);
     std::vector<std::uint8_t> band(distance_.size(), 0);
+    std::vector<float> values(distance_.size(), 0);
     parallel_for(job, corners(2),
-                 [&](std::size_t k) { measure_layer(*fields.borrow(), static_cast<int>(k), band); });
+                 [&](std::size_t k) { sample_layer(*fields.borrow(), static_cast<int>(k), band, values); });
+    parallel_for(job, corners(2), [&](std::size_t k) { measure_slopes(static_cast<int>(k), band, values); });
     if (job.cancelled()) return;
     refine_at_crossings(band);
     collect_surface(band);
     spread(band, job);
 }
 
-/// First-order distances at the corners of mixed cells in layer k; the other corners get a sign.
-void DistanceGrid::measure_layer(SampledField& field, int k, std::vector<std::uint8_t>& band) {
+/// F at the corners of mixed cells in layer k; the other corners get a sign.
+void DistanceGrid::sample_layer(SampledField& field, int k, std::vector<std::uint8_t>& band,
+                                std::vector<float>& values) {
     std::vector<std::size_t> places;
     std::vector<double> x, y, z;
     const std::size_t first = static_cast<std::size_t>(k) * corners(0) * corners(1);
@@ -242,18 +246,45 @@ void DistanceGrid::measure_layer(SampledField& field, int k, std::vector<std::ui
             x.push_back(p.x), y.push_back(p.y), z.push_back(p.z);
         }
     }
-    const std::size_t count = places.size();
-    if (count == 0) return;
-    std::vector<double> f(count), gx(count), gy(count), gz(count);
-    field.gradients({x, y, z}, f, {gx, gy, gz});
-    for (std::size_t p = 0; p < count; ++p) {
-        const double slope = length({gx[p], gy[p], gz[p]}) * step_;
-        double d = -f[p] / slope;
-        if (!(f[p] >= 0)) d = d > 0 ? d : 1;
-        if (f[p] >= 0 && !(d <= 0)) d = -1;
-        d = std::max(d, outside_of(clip_, {x[p], y[p], z[p]}) / step_);
+    if (places.empty()) return;
+    std::vector<double> f(places.size());
+    field.values({x, y, z}, f);
+    for (std::size_t p = 0; p < places.size(); ++p) {
         band[places[p]] = 1;
-        distance_[places[p]] = static_cast<float>(std::clamp(d, double{-widest_band}, double{widest_band}));
+        const auto value = static_cast<float>(f[p]);
+        values[places[p]] = f[p] < 0 && value == 0 ? -1e-37F : value;  // the sign stays
+    }
+}
+
+/// Distances of first order, F/|grad F| with differences between neighbours for derivatives.
+void DistanceGrid::measure_slopes(int k, const std::vector<std::uint8_t>& band,
+                                  const std::vector<float>& values) {
+    const std::array<std::size_t, 3> strides{1, corners(0), corners(0) * corners(1)};
+    for (int j = 0; j <= cells_[1]; ++j) {
+        for (int i = 0; i <= cells_[0]; ++i) {
+            const std::array<int, 3> at{i, j, k};
+            const std::size_t p = static_cast<std::size_t>(k) * strides[2] +
+                                  static_cast<std::size_t>(j) * strides[1] + static_cast<std::size_t>(i);
+            if (!band[p]) continue;
+            const double f = double{values[p]};
+            double square = 0;
+            for (std::size_t a = 0; a < 3; ++a) {
+                const bool has_less = at[a] > 0 && band[p - strides[a]];
+                const bool has_more = at[a] < cells_[a] && band[p + strides[a]];
+                const double less = has_less ? double{values[p - strides[a]]} : f;
+                const double more = has_more ? double{values[p + strides[a]]} : f;
+                const double slope = (more - less) / (has_less && has_more ? 2 : 1);
+                // Across a crease the steeper side counts.
+                const double steepest = std::max(__builtin_fabs(more - f), __builtin_fabs(f - less));
+                const double used = std::max(__builtin_fabs(slope), 0.7 * steepest);
+                if (used - used == 0) square += used * used;
+            }
+            double d = -f / __builtin_sqrt(square);
+            if (!(f >= 0)) d = d > 0 ? d : 1;
+            if (f >= 0 && !(d <= 0)) d = -1;
+            d = std::max(d, outside_of(clip_, corner(i, j, k)) / step_);
+            distance_[p] = static_cast<float>(std::clamp(d, double{-widest_band}, double{widest_band}));
+        }
     }
 }
 

@@ -72,7 +72,9 @@ class DistanceGrid {
     void classify(FieldPool& fields, const Job& job);
     void classify_by_samples(FieldPool& fields, const Job& job);
     void measure(FieldPool& fields, const Job& job);
-    void measure_layer(SampledField& field, int k, std::vector<std::uint8_t>& band);
+    void sample_layer(SampledField& field, int k, std::vector<std::uint8_t>& band,
+                      std::vector<float>& values);
+    void measure_slopes(int k, const std::vector<std::uint8_t>& band, const std::vector<float>& values);
     void refine_at_crossings(std::vector<std::uint8_t>& band);
     void spread(const std::vector<std::uint8_t>& band, const Job& job);
     void collect_surface(const std::vector<std::uint8_t>& band);

@@ -29,8 +29,9 @@ class Studio {
 
     /// The light from direction `d` (unit length), blurred as a surface of `roughness` 0..1 sees it.
     Rgb radiance(Vec3 d, double roughness) const;
-    /// The same without the softboxes.
+    /// The even light without the softboxes, for diffuse surfaces; and what a mirror sees between them.
     Rgb dome(Vec3 d) const;
+    Rgb room(Vec3 d) const;
     /// The light that the table gives back where nothing shades it.
     Rgb table() const { return {0.62, 0.61, 0.60}; }
     std::span<const Softbox> lamps() const { return lamps_; }

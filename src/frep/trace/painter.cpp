@@ -11,7 +11,8 @@ namespace frep::tracing {
 
 namespace {
 
-constexpr int tile = 32;
+constexpr int tile = 32;            ///< pixels a side
+constexpr std::size_t packet = 64;  ///< rays that share proofs
 constexpr std::size_t edge_pixels_a_task = 64;
 
 /// Places within a pixel for edges: eight rooks, none in the row or column of another.
@@ -83,8 +84,8 @@ std::vector<Vec3> framed_points(const DistanceGrid& grid, bool all_round) {
 }  // namespace
 
 struct Painter::Worker {
-    Worker(const DistanceGrid& grid, FieldPool& fields, double leaf)
-        : field(fields.borrow()), first_hit(grid, *field, leaf) {}
+    Worker(const DistanceGrid& grid, FieldPool& fields, double leaf, std::size_t group, double finest)
+        : field(fields.borrow()), first_hit(grid, *field, leaf, group, finest) {}
     FieldPool::Lease field;
     FirstHit first_hit;
     std::vector<Ray> rays;
@@ -125,17 +126,24 @@ Result<Image> Painter::paint(const Job& job) {
     const int across = (options_.width + tile - 1) / tile, down = (options_.height + tile - 1) / tile;
     parallel_for(job, static_cast<std::size_t>(across * down), [&](std::size_t task) {
         const int x0 = static_cast<int>(task) % across * tile, y0 = static_cast<int>(task) / across * tile;
-        const int x1 = std::min(x0 + tile, options_.width), y1 = std::min(y0 + tile, options_.height);
-        Worker worker(grid_, fields_, 0.5 * camera_.pixel_size());
-        for (int y = y0; y < y1; ++y)
-            for (int x = x0; x < x1; ++x) worker.places.push_back({x + 0.5, y + 0.5});
+        Worker worker(grid_, fields_, 0.5 * camera_.pixel_size(), packet, 1.0 / 16);
+        // In Morton order: any quarter of a packet is a square of neighbours.
+        for (unsigned n = 0; n < unsigned{tile * tile}; ++n) {
+            unsigned x = 0, y = 0;
+            for (unsigned bit = 0; bit < 5; ++bit) {
+                x |= (n >> (2 * bit) & 1U) << bit;
+                y |= (n >> (2 * bit + 1) & 1U) << bit;
+            }
+            worker.places.push_back({x0 + static_cast<int>(x) + 0.5, y0 + static_cast<int>(y) + 0.5});
+        }
         worker.samples.resize(worker.places.size());
         sample(worker, worker.places, worker.samples);
-        std::size_t n = 0;
-        for (int y = y0; y < y1; ++y)
-            for (int x = x0; x < x1; ++x)
-                samples_[static_cast<std::size_t>(y) * width + static_cast<std::size_t>(x)] =
-                    worker.samples[n++];
+        for (std::size_t n = 0; n < worker.places.size(); ++n) {
+            const auto x = static_cast<std::size_t>(worker.places[n].x),
+                       y = static_cast<std::size_t>(worker.places[n].y);
+            if (x < width && y < static_cast<std::size_t>(options_.height))
+                samples_[y * width + x] = worker.samples[n];
+        }
     });
     if (!job.cancelled()) smooth_edges(job);
     if (job.cancelled()) return Error{ErrorKind::cancelled, "the picture was cancelled"};
@@ -280,13 +288,15 @@ std::vector<std::uint32_t> Painter::edges() const {
     return list;
 }
 
+/// More samples where neighbours differ. Their rays do without proofs: what they decide is how much of a
+/// pixel each of two things covers that proved rays have found.
 void Painter::smooth_edges(const Job& job) {
     const std::vector<std::uint32_t> list = edges();
     const std::size_t tasks = (list.size() + edge_pixels_a_task - 1) / edge_pixels_a_task;
     parallel_for(job, tasks, [&](std::size_t task) {
         const std::size_t first = task * edge_pixels_a_task;
         const std::size_t last = std::min(first + edge_pixels_a_task, list.size());
-        Worker worker(grid_, fields_, 0.5 * camera_.pixel_size());
+        Worker worker(grid_, fields_, 0.5 * camera_.pixel_size(), rooks.size(), 0);
         const auto width = static_cast<std::uint32_t>(options_.width);
         for (std::size_t e = first; e < last; ++e)
             for (const Vec2& rook : rooks)

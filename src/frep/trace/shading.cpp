@@ -200,13 +200,16 @@ double Shader::ground_light(Vec3 p) const {
 
 Shader::Reflection Shader::ground_reflection(Vec3 p, Vec3 direction) const {
     const Vec3 mirror{direction.x, direction.y, -direction.z};
+    if (stage_.grid.distance(p) > 0.25 * stage_.size) return {};
     double t = 0;
     const Vec3 start = p + Vec3{0, 0, 0.3 * offset_};
     if (!meets_object(start, mirror, t)) return {};
     const Vec3 q = start + mirror * t;
-    const double near = 1 - smooth_step(0, 0.5 * stage_.size, t);
-    const double strength = (0.05 + 0.5 * schlick(mirror.z)) * near;
-    return {plain(q, stage_.grid.direction(q), -mirror), strength};
+    const double near = 1 - smooth_step(0, 0.22 * stage_.size, t);
+    const double strength = (0.04 + 0.30 * schlick(mirror.z)) * near;
+    const Vec3 n = stage_.grid.direction(q);
+    // Seen at a grazing angle the object's rim would outshine the table: it is left out.
+    return {plain(q, n, -mirror), strength * smooth_step(0, 0.3, -dot(n, mirror))};
 }
 
 }  // namespace frep::tracing

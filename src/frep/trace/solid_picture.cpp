@@ -14,16 +14,19 @@ namespace {
 Error wrong(std::string message) { return {ErrorKind::invalid_argument, std::move(message)}; }
 bool is_finite(double v) { return v - v == 0; }
 
-int cells_of(PictureQuality quality) {
-    switch (quality) {
+/// Cells along the longest side of the object: one for every six pixels, more for light than for small
+/// pictures.
+int cells_of(const SceneOptions& options) {
+    const int wanted = options.longest_side / 6;
+    switch (options.quality) {
         case PictureQuality::draft:
-            return 96;
+            return std::clamp(wanted, 64, 96);
         case PictureQuality::normal:
-            return 192;
+            return std::clamp(wanted, 96, 192);
         case PictureQuality::high:
             break;
     }
-    return 288;
+    return std::clamp(wanted, 192, 288);
 }
 
 /// The box that the section leaves.
@@ -85,7 +88,7 @@ Result<SolidScene> SolidScene::make(const SampledField& field, const SceneOption
     parts->options = options;
     parts->field = field.clone();
     parts->pool = std::make_unique<FieldPool>(*parts->field);
-    auto grid = tracing::DistanceGrid::make(*parts->pool, *clip, cells_of(options.quality), job);
+    auto grid = tracing::DistanceGrid::make(*parts->pool, *clip, cells_of(options), job);
     if (!grid) return grid.error();
     parts->grid = std::move(*grid);
     return SolidScene(std::move(parts));

@@ -34,6 +34,7 @@ struct SceneOptions {
     Box3 bounds;  ///< the solid is shown within this box
     std::optional<Section> section;
     PictureQuality quality = PictureQuality::normal;
+    int longest_side = 1200;  ///< pixels of the pictures to come; small ones need less preparation
 };
 
 struct PictureOptions {
