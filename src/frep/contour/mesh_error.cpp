@@ -17,6 +17,7 @@ using namespace contouring;
 
 constexpr std::size_t samples_a_task = 4096;
 constexpr double reach_in_cells = 4;
+constexpr std::size_t most_refined = 5000;  // lines searched in all directions
 /// The finer lattice: its cell as a share of the mesh's, and its shift, in its cells.
 constexpr double finest_share = 0.29, coarsest_share = 0.93;
 constexpr Vec3 lattice_shift{0.37, 0.41, 0.29};
@@ -65,23 +66,46 @@ std::vector<SignProbe> probes_of(const Mesh& mesh, const Grid& grid, std::size_t
     return probes;
 }
 
+/// Refines the farthest lines until the farthest of all is a refined one. Every line gets only shorter.
+void refine_farthest(std::vector<std::vector<SignLine>>& parts, SignSearch& search, const Job& job) {
+    std::vector<SignLine*> order;
+    for (std::vector<SignLine>& part : parts)
+        for (SignLine& line : part) order.push_back(&line);
+    std::stable_sort(order.begin(), order.end(),
+                     [](const SignLine* a, const SignLine* b) { return a->high > b->high; });
+    double farthest = 0;
+    for (std::size_t i = 0; i < order.size() && i < most_refined && !job.cancelled(); ++i) {
+        if (order[i]->high <= farthest) break;
+        search.refine(*order[i]);
+        if (order[i]->way != 0) farthest = std::max(farthest, order[i]->high);
+    }
+}
+
 void measure_from_mesh(const Mesh& mesh, FieldPool& fields, const MeshErrorOptions& options, const Job& job,
                        MeshError& error) {
     const std::vector<SignProbe> probes = probes_of(mesh, options.grid, options.samples);
-    const double cell = options.grid.cell;
-    std::vector<FarthestSign> found((probes.size() + samples_a_task - 1) / samples_a_task);
-    parallel_for(job, found.size(), [&](std::size_t t) {
+    const double reach = reach_in_cells * options.grid.cell, start = 1e-3 * options.grid.cell;
+    std::vector<std::vector<SignLine>> parts((probes.size() + samples_a_task - 1) / samples_a_task);
+    parallel_for(job, parts.size(), [&](std::size_t t) {
         const FieldPool::Lease field = fields.borrow();
-        SignSearch search(*field, reach_in_cells * cell, 1e-3 * cell);
+        SignSearch search(*field, reach, start);
         const std::size_t begin = t * samples_a_task;
-        found[t] = search.farthest({probes.data() + begin, std::min(samples_a_task, probes.size() - begin)});
+        parts[t] = search.search({probes.data() + begin, std::min(samples_a_task, probes.size() - begin)});
     });
+    if (job.cancelled()) return;
+    const FieldPool::Lease field = fields.borrow();
+    SignSearch search(*field, reach, start);
+    refine_farthest(parts, search, job);
     error.samples_on_mesh = probes.size();
-    for (const FarthestSign& part : found) {
-        error.unresolved += part.unresolved;
-        if (!part.distance || (error.mesh_to_surface && *part.distance <= *error.mesh_to_surface)) continue;
-        error.mesh_to_surface = part.distance;
-        error.mesh_place = part.place;
+    for (const std::vector<SignLine>& part : parts) {
+        for (const SignLine& line : part) {
+            if (line.way == 0) {
+                ++error.unresolved;
+            } else if (!error.mesh_to_surface || line.high > *error.mesh_to_surface) {
+                error.mesh_to_surface = line.high;
+                error.mesh_place = line.point;
+            }
+        }
     }
 }
 

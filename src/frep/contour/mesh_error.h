@@ -1,13 +1,12 @@
 // measure_mesh_error: how far a mesh and the surface F = 0 are from each other, by samples, both ways.
 // From mesh to surface: from points of the triangles along the gradient of F to the first change of its sign,
 // found by doubling steps and then bisection. A zero lies at the end of each such way, so the way of a sample
-// is never shorter than its true distance, and a little longer where the gradient does not point to the
-// nearest zero (sharp edges).
-// From surface to mesh: from points of the surface on the edges of a finer lattice, shifted against that of
-// the mesh so that it sees features that the mesh has missed, to the nearest point of the mesh (bvh.h). These
-// are true distances; a feature that the finer lattice misses too is not noticed.
-// So the result is the largest distance that was found, not a bound.
-// Tested by tests/unit/contour/mesh_error_test.cpp.
+// is never shorter than its true distance. Where the gradient does not point to the nearest zero (sharp
+// edges) it is longer; so the farthest samples are searched in all directions too. From surface to mesh: from
+// points of the surface on the edges of a finer lattice, shifted against that of the mesh so that it sees
+// features that the mesh has missed, to the nearest point of the mesh (bvh.h). These are true distances; a
+// feature that the finer lattice misses too is not noticed. So the result is the largest distance that was
+// found, not a bound. Tested by tests/unit/contour/mesh_error_test.cpp.
 #pragma once
 
 #include <cstddef>
@@ -23,7 +22,7 @@ namespace frep {
 
 struct MeshErrorOptions {
     Grid grid;                     ///< that the mesh was made on
-    std::size_t samples = 200000;  ///< about so many each way, at most
+    std::size_t samples = 100000;  ///< about so many each way, at most
     bool prune = true;             ///< use the intervals of the field
     std::size_t memory_limit = std::size_t{8} << 30;
 };

@@ -9,6 +9,8 @@ namespace {
 
 constexpr int narrowing_steps = 40;
 constexpr double precision = 1e-3;  // of the distance
+constexpr int looks = 8;            // along each direction of a refinement
+constexpr int shortening_steps = 10;
 
 bool is_finite(double v) { return v - v == 0; }
 
@@ -45,7 +47,10 @@ void SignSearch::take_gradients(std::span<const SignProbe> probes) {
         const double newton = (values_[i] < 0 ? -values_[i] : values_[i]) / size;
         // A way of no length is no way; one beyond the reach is left to the doubling.
         line.step = std::clamp(1.25 * newton, 1e-6 * start_, reach_);
-        if (values_[i] == 0) line.way = 1;  // on the surface: distance 0
+        if (values_[i] == 0) {  // on the surface
+            line.way = 1;
+            line.high = 0;
+        }
     }
 }
 
@@ -111,20 +116,85 @@ void SignSearch::narrow() {
     }
 }
 
-FarthestSign SignSearch::farthest(std::span<const SignProbe> probes) {
+std::vector<SignLine> SignSearch::search(std::span<const SignProbe> probes) {
     take_gradients(probes);
     expand();
     narrow();
-    FarthestSign result;
-    for (const Line& line : lines_) {
-        if (line.way == 0) {
-            ++result.unresolved;
-        } else if (!result.distance || line.high > *result.distance) {
-            result.distance = line.high;
-            result.place = line.point;
+    return std::move(lines_);
+}
+
+/// Replaces the line by the shortest of those in `directions` that find a change sooner.
+void SignSearch::shorten(SignLine& line, std::span<const Vec3> directions) {
+    const double longest = line.way == 0 ? reach_ : line.high;
+    const std::size_t count = directions.size() * looks;
+    for (std::vector<double>* v : {&x_, &y_, &z_}) v->resize(count);
+    std::size_t at = 0;
+    for (const Vec3& d : directions) {
+        for (int k = 1; k <= looks; ++k, ++at) {
+            const Vec3 p = line.point + d * (longest * k / looks);
+            x_[at] = p.x;
+            y_[at] = p.y;
+            z_[at] = p.z;
         }
     }
-    return result;
+    evaluate(count);
+    int nearest = looks + 1;
+    std::vector<int> firsts;
+    for (std::size_t i = 0; i < directions.size(); ++i) {
+        int k = 1;
+        while (k <= looks && (values_[i * looks + static_cast<std::size_t>(k) - 1] >= 0) == line.inside) ++k;
+        firsts.push_back(k);
+        nearest = std::min(nearest, k);
+    }
+    if (nearest > looks) return;
+    lines_.clear();
+    for (std::size_t i = 0; i < directions.size(); ++i) {
+        if (firsts[i] != nearest) continue;
+        Line found = line;
+        found.direction = directions[i];
+        found.way = 1;
+        found.low = longest * (nearest - 1) / looks;
+        found.high = longest * nearest / looks;
+        lines_.push_back(found);
+    }
+    for (std::vector<double>* v : {&x_, &y_, &z_}) v->resize(lines_.size());
+    for (int step = 0; step < shortening_steps; ++step) {
+        for (std::size_t i = 0; i < lines_.size(); ++i) {
+            const Vec3 p = line.point + lines_[i].direction * (0.5 * (lines_[i].low + lines_[i].high));
+            x_[i] = p.x;
+            y_[i] = p.y;
+            z_[i] = p.z;
+        }
+        evaluate(lines_.size());
+        for (std::size_t i = 0; i < lines_.size(); ++i) {
+            const bool changed = (values_[i] >= 0) != line.inside;
+            (changed ? lines_[i].high : lines_[i].low) = 0.5 * (lines_[i].low + lines_[i].high);
+        }
+    }
+    for (const Line& found : lines_)
+        if (line.way == 0 || found.high < line.high) line = found;
+}
+
+void SignSearch::refine(SignLine& line) {
+    line.refined = true;
+    std::vector<Vec3> directions;
+    for (int i = 0; i < 27; ++i) {
+        if (i == 13) continue;
+        const Vec3 d{i % 3 - 1.0, i / 3 % 3 - 1.0, i / 9 - 1.0};
+        directions.push_back(d / length(d));
+    }
+    shorten(line, directions);
+    if (line.way == 0) return;
+    // The nearest point of a smooth surface lies along its normal there.
+    const Vec3 q = line.point + line.direction * (line.way * line.high);
+    double value = 0;
+    Vec3 g;
+    field_.gradients({std::span(&q.x, 1), std::span(&q.y, 1), std::span(&q.z, 1)}, std::span(&value, 1),
+                     {std::span(&g.x, 1), std::span(&g.y, 1), std::span(&g.z, 1)});
+    const double size = length(g);
+    if (!(size > 0) || !is_finite(size)) return;
+    const Vec3 normals[] = {g / size, -(g / size)};
+    shorten(line, normals);
 }
 
 }  // namespace frep::contouring

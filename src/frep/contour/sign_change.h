@@ -1,9 +1,10 @@
-// SignSearch: how far it is from points to the nearest change of sign along given lines; only the farthest of
-// a batch is wanted. Tested through tests/unit/contour/mesh_error_test.cpp.
+// SignSearch: how far it is from points to the nearest change of sign of F. A first search along the gradient
+// gives every point a distance that is never too short; those that matter are then searched in all
+// directions. Tested through tests/unit/contour/mesh_error_test.cpp.
 #pragma once
 
 #include <cstddef>
-#include <optional>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -16,37 +17,39 @@ struct SignProbe {
     Vec3 point, direction;
 };
 
-struct FarthestSign {
-    std::optional<double> distance;  ///< nothing when no probe found a change
-    Vec3 place;                      ///< the probe's point
-    std::size_t unresolved = 0;      ///< probes that found none within reach
+/// A probe with what is known of its distance.
+struct SignLine {
+    Vec3 point, direction;
+    bool inside = false;
+    double low = 0;  ///< no change up to here along the line, to the resolution of the steps
+    double high =
+        std::numeric_limits<double>::infinity();  ///< a change lies within this distance; else infinite
+    double step = 0;                              ///< of the search under way
+    double way = 0;  ///< the change lies at +high or -high along the direction; 0: not found
+    bool refined = false;
 };
 
-/// The largest distance from a probe to its first change of sign ("defined and F >= 0"), up to a
-/// thousandth of it. `directions` of zero length take the gradient; probes whose gradient is zero or
-/// undefined take the given direction.
 class SignSearch {
   public:
     /// `reach`: how far to look; `start`: the first step where the gradient tells none. Model units.
     SignSearch(SampledField& field, double reach, double start)
         : field_(field), reach_(reach), start_(start) {}
 
-    FarthestSign farthest(std::span<const SignProbe> probes);
+    /// Searches along the gradient, both ways; probes whose gradient is zero or undefined take the given
+    /// direction. The farthest of the lines is known to a thousandth, others as far as needed to tell that.
+    std::vector<SignLine> search(std::span<const SignProbe> probes);
+
+    /// Looks for a nearer change: in 26 directions, and along the gradient at the nearest that was found.
+    void refine(SignLine& line);
 
   private:
-    /// A probe with what is known: no change up to `low`, one at `high` (on the side `way`).
-    struct Line {
-        Vec3 point, direction;
-        bool inside = false;
-        double low = 0, high = 0;
-        double step = 0;
-        double way = 0;  ///< +1 or -1 along direction once found, else 0
-    };
+    using Line = SignLine;
 
     void take_gradients(std::span<const SignProbe> probes);
     void expand();
     void narrow();
     void evaluate(std::size_t count);
+    void shorten(SignLine& line, std::span<const Vec3> directions);
 
     SampledField& field_;
     double reach_, start_;
