@@ -14,7 +14,8 @@ namespace {
 constexpr int block = 8;            ///< cells along the side of a block that is judged as one
 constexpr int finest = 2;           ///< and of the smallest such block
 constexpr int coarse_levels = 5;    ///< halvings of the box when the hull is looked for
-constexpr int margin = 2;           ///< cells around the hull
+constexpr int margin = 2;           ///< cells around the hull, at least
+constexpr int probe_cells = 48;     ///< of the lattice that tells whether intervals help
 constexpr int sampled_cells = 112;  ///< along the longest side, at most, where intervals say nothing
 constexpr float deepest = -2.0F;    ///< distances inside are cut off here
 constexpr float widest_band = 1.75F;
@@ -98,7 +99,13 @@ Result<DistanceGrid> DistanceGrid::make(FieldPool& fields, const Box3& clip, int
     grid.clip_ = clip;
     const Hull hull = find_hull(*fields.borrow(), clip);
     if (hull.is_empty) return grid;
-    grid.sampled_ = hull.undecided > 0.5;
+    if (hull.undecided > 0.5) {
+        // Either intervals say nothing or the solid is thin: finer cells leave a thin one mostly empty.
+        grid.place(hull.box, probe_cells);
+        grid.classify(fields, job);
+        const auto mixed = std::count(grid.states_.begin(), grid.states_.end(), CellState::mixed);
+        grid.sampled_ = static_cast<double>(mixed) > 0.6 * static_cast<double>(grid.states_.size());
+    }
     grid.place(hull.box, grid.sampled_ ? std::min(cells, sampled_cells) : cells);
     if (grid.sampled_)
         grid.classify_by_samples(fields, job);

@@ -43,7 +43,8 @@ Result<Box3> clipped(const SceneOptions& options) {
     if (!(s.value > box.min.*axis && s.value < box.max.*axis))
         return wrong(fmt::format("the section {}={} lies outside of the box, {}..{}", "xyz"[s.axis], s.value,
                                  box.min.*axis, box.max.*axis));
-    (s.keeps_less ? box.max : box.min).*axis = s.value;
+    Vec3& end = s.keeps_less ? box.max : box.min;
+    end.*axis = s.value;
     return box;
 }
 

@@ -1,0 +1,153 @@
+// The first points of solids along rays against roots that are known: spheres, a torus, a thin plate,
+// needles; cut faces; fields about which intervals say nothing.
+#include "frep/trace/first_hit.h"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <memory>
+#include <vector>
+
+#include "frep/field/expression.h"
+#include "frep/trace/distance_grid.h"
+
+using namespace frep;
+using namespace frep::tracing;
+
+namespace {
+
+/// A solid given by an expression of x, y, z.
+template <class Body>
+std::unique_ptr<SampledField> solid(Body body) {
+    auto graph = std::make_shared<Graph>();
+    const Expression x(*graph, graph->coordinate(0)), y(*graph, graph->coordinate(1)),
+        z(*graph, graph->coordinate(2));
+    Field field;
+    field.value = body(x, y, z).id();
+    field.graph = graph;
+    field.coordinates = 3;
+    auto evaluator = make_evaluator(field);
+    REQUIRE(evaluator);
+    auto sampled = make_sampled_field(std::move(*evaluator), AxisMap::standard(3));
+    REQUIRE(sampled);
+    return std::move(*sampled);
+}
+
+std::vector<Hit> traced(const SampledField& field, const Box3& box, const std::vector<Ray>& rays,
+                        bool* sampled = nullptr) {
+    FieldPool pool(field);
+    const Job job;
+    auto grid = DistanceGrid::make(pool, box, 64, job);
+    REQUIRE(grid);
+    if (sampled) *sampled = grid->sampled();
+    const FieldPool::Lease lease = pool.borrow();
+    std::vector<Hit> hits(rays.size());
+    FirstHit(*grid, *lease, 1e-3).trace(rays, hits);
+    return hits;
+}
+
+/// Parallel rays along -z over [-half, half]^2.
+std::vector<Ray> rays_down(double half, int n) {
+    std::vector<Ray> rays;
+    for (int j = 0; j < n; ++j)
+        for (int i = 0; i < n; ++i)
+            rays.push_back({{half * ((2 * i + 1.0) / n - 1), half * ((2 * j + 1.0) / n - 1), 5}, {0, 0, -1}});
+    return rays;
+}
+
+}  // namespace
+
+TEST_CASE("a sphere is met where the quadratic says") {
+    const auto ball = solid([](auto x, auto y, auto z) { return 1.0 - (x * x + y * y + z * z); });
+    const auto rays = rays_down(1.2, 40);
+    const auto hits = traced(*ball, Box3::cube(1.5), rays);
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+        const double rest = 1 - rays[i].origin.x * rays[i].origin.x - rays[i].origin.y * rays[i].origin.y;
+        CHECK(hits[i].is_hit() == (rest > 0));
+        if (rest > 0) {
+            CHECK(std::fabs(hits[i].t - (5 - std::sqrt(rest))) < 1e-7);
+            CHECK(hits[i].cut_by == 0);
+        }
+    }
+}
+
+TEST_CASE("of the four roots of a torus the first is taken") {
+    const auto torus = solid([](auto x, auto y, auto z) {
+        const auto r = sqrt(x * x + y * y) - 1.0;
+        return 0.09 - (r * r + z * z);
+    });
+    std::vector<Ray> rays;
+    for (int n = -5; n <= 5; ++n) rays.push_back({{-4, 0, n * 0.05}, {1, 0, 0}});
+    const auto hits = traced(*torus, Box3::cube(2), rays);
+    for (int n = -5; n <= 5; ++n) {
+        const double z = n * 0.05;
+        CHECK(std::fabs(hits[static_cast<std::size_t>(n + 5)].t - (3 - std::sqrt(0.09 - z * z))) < 1e-7);
+    }
+}
+
+TEST_CASE("a plate of a thousandth of the box hides what is behind it") {
+    const auto field = solid([](auto x, auto y, auto z) {
+        const auto plate = 0.001 - abs(z - 0.737);
+        const auto ball = 0.5 - sqrt(x * x + y * y + z * z);
+        return max(plate, ball);
+    });
+    for (const Hit& hit : traced(*field, Box3::cube(1), rays_down(0.9, 30)))
+        CHECK(std::fabs(hit.t - (5 - 0.738)) < 1e-6);
+}
+
+TEST_CASE("needles are met by the rays that go through them") {
+    const auto field = solid([](auto x, auto y, auto z) {
+        const auto needle = 0.002 - sqrt(square(x - 0.3) + square(z - 0.1));
+        return max(needle, -abs(y) - 5.0);
+    });
+    std::vector<Ray> rays;
+    for (int n = 0; n < 20; ++n) rays.push_back({{0.3, -0.9 + 0.09 * n, 5}, {0, 0, -1}});
+    for (const Hit& hit : traced(*field, Box3::cube(1), rays)) CHECK(std::fabs(hit.t - (5 - 0.102)) < 1e-6);
+}
+
+TEST_CASE("where the box cuts the solid, its side is the surface") {
+    const auto all = solid([](auto x, auto, auto) { return 5.0 - abs(x); });
+    for (const Hit& hit : traced(*all, Box3::cube(1), rays_down(0.9, 4))) {
+        CHECK(std::fabs(hit.t - 4) < 1e-12);
+        CHECK(hit.cut_by == 6);
+    }
+}
+
+TEST_CASE("an empty box has no hits") {
+    const auto none = solid([](auto x, auto, auto) { return -1.0 - x * x; });
+    for (const Hit& hit : traced(*none, Box3::cube(1), rays_down(0.9, 4))) CHECK(!hit.is_hit());
+}
+
+TEST_CASE("neighbours that share proofs have the hits of single rays") {
+    const auto ball = solid([](auto x, auto y, auto z) { return 1.0 - sqrt(x * x + y * y + z * z); });
+    const auto rays = rays_down(1.1, 16);
+    FieldPool pool(*ball);
+    const Job job;
+    const auto grid = DistanceGrid::make(pool, Box3::cube(1.5), 48, job);
+    REQUIRE(grid);
+    const FieldPool::Lease lease = pool.borrow();
+    std::vector<Hit> alone(rays.size()), together(rays.size());
+    FirstHit(*grid, *lease, 1e-3, 1).trace(rays, alone);
+    FirstHit(*grid, *lease, 1e-3, 64).trace(rays, together);
+    for (std::size_t i = 0; i < rays.size(); ++i) CHECK(alone[i].t == together[i].t);
+}
+
+TEST_CASE("distances of a ball, inside the lattice and beyond") {
+    const auto ball = solid([](auto x, auto y, auto z) { return 1.0 - (x * x + y * y + z * z); });
+    FieldPool pool(*ball);
+    const Job job;
+    const auto grid = DistanceGrid::make(pool, Box3::cube(2), 64, job);
+    REQUIRE(grid);
+    CHECK(std::fabs(grid->lowest() + 1) < grid->step());
+    for (double r = 1; r < 1.8; r += 0.01) {
+        const Vec3 p{0.6 * r, 0.0, 0.8 * r};
+        CHECK(grid->distance(p) < r - 1 + 1.2 * grid->step());
+        if (r > 1.1) continue;
+        CHECK(grid->distance(p) > r - 1 - 1.2 * grid->step());
+        CHECK(dot(grid->direction(p), p) > 0.97 * r);
+    }
+    const double far = grid->distance({30, 0, 0});
+    CHECK(far <= 29.01);
+    CHECK(far > 28);
+    CHECK(grid->distance({0.95, 0, 0}) < 0);
+}
