@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "frep/eval/region_narrow.h"
 #include "frep/eval/region_nodes.h"
 #include "frep/field/kernels/basic.h"
 #include "frep/field/meaning.h"
@@ -14,6 +15,8 @@ namespace frep {
 namespace {
 
 using math::Interval;
+
+constexpr NodeId no_node = ~NodeId{0};
 
 /// The items of an array that an index may mean, counted from 0: first .. last, none if first > last.
 struct ItemRange {
@@ -66,6 +69,7 @@ void IntervalRegion::run(std::span<const Interval> arguments) {
     given_up_ = region_.cell_count > cell_limit;
     undecided_ = 0;
     work_ = 0;
+    latest_ = nullptr;
     for (std::size_t k = 0; k < region_.inputs.size(); ++k)
         state_.cells[region_.inputs[k]] = arguments[k + 1];
     if (!given_up_) execute(region_.program);
@@ -91,10 +95,12 @@ void IntervalRegion::execute(std::span<const std::uint32_t> statements) {
             case RegionStatement::Kind::assign:
                 evaluate(number);
                 for (const auto& [cell, node] : statement.assignments) state_.cells[cell] = values_[node];
+                latest_ = &statement;
                 break;
             case RegionStatement::Kind::store:
                 evaluate(number);
                 store(statement);
+                latest_ = nullptr;
                 break;
             case RegionStatement::Kind::branch:
                 branch(statement, number);
@@ -106,15 +112,37 @@ void IntervalRegion::execute(std::span<const std::uint32_t> statements) {
     }
 }
 
-/// Runs the condition. Points where it is undefined fail.
+/// Runs the condition. Points where it is undefined fail. A condition that is the content of a cell, as loops
+/// have it, is what the latest assignment computed for that cell: the values of its nodes are still there.
 IntervalRegion::Sides IntervalRegion::decide(const RegionStatement& statement, std::uint32_t number) {
-    evaluate(number);
-    const Interval condition = values_[statement.condition];
+    const Node& node = region_.body.node(statement.condition);
+    Interval condition;
+    Sides sides;
+    sides.node = statement.condition;
+    if (node.op == Op::cell) {
+        work(1);
+        condition = state_.cells[node.payload];
+        sides.node = no_node;
+        if (latest_) sides.assigned = latest_->assignments;
+        for (const auto& [cell, value] : sides.assigned)
+            if (cell == node.payload) sides.node = value;
+    } else {
+        evaluate(number);
+        condition = values_[statement.condition];
+    }
     may_fail_ = may_fail_ || condition.maybe_undefined || condition.is_empty();
-    if (condition.is_empty()) return {};
+    if (condition.is_empty()) return sides;
     const auto mask = kernels::is_true(Interval(condition.lo, condition.hi));
-    if (mask.can_be_true && mask.can_be_false) ++undecided_;
-    return {mask.can_be_true, mask.can_be_false};
+    sides.first = mask.can_be_true;
+    sides.second = mask.can_be_false;
+    if (sides.first && sides.second) ++undecided_;
+    return sides;
+}
+
+/// Keeps the points of the state that take the side `truth` of an undecided condition.
+void IntervalRegion::keep(State& state, const Sides& sides, bool truth) const {
+    if (sides.node == no_node) return;
+    state.reached = narrow(region_.body, values_, sides.node, truth, sides.assigned, state.cells);
 }
 
 void IntervalRegion::branch(const RegionStatement& statement, std::uint32_t number) {
@@ -125,11 +153,16 @@ void IntervalRegion::branch(const RegionStatement& statement, std::uint32_t numb
         return;
     }
     work(2 * state_.cells.size());
-    const State before = state_;
+    State other = state_;
+    keep(other, sides, false);
+    keep(state_, sides, true);
+    latest_ = nullptr;
     execute(statement.first);
-    State after = std::exchange(state_, before);
+    std::swap(state_, other);
+    latest_ = nullptr;
     execute(statement.second);
-    join(state_, after);
+    join(state_, other);
+    latest_ = nullptr;
 }
 
 void IntervalRegion::loop(const RegionStatement& statement, std::uint32_t number) {
@@ -138,16 +171,21 @@ void IntervalRegion::loop(const RegionStatement& statement, std::uint32_t number
     while (state_.reached && !given_up_) {
         const Sides sides = decide(statement, number);
         if (sides.second) {
-            work(state_.cells.size());
-            join(left, state_);
+            work(2 * state_.cells.size());
+            State leaving = state_;
+            if (sides.first) keep(leaving, sides, false);
+            join(left, leaving);
         }
         if (!sides.first) break;
+        if (sides.second) keep(state_, sides, true);
+        if (!state_.reached) break;
         ++state_.fewest_steps;
         ++state_.most_steps;
         may_fail_ = may_fail_ || state_.most_steps > max_steps_;
         if (state_.fewest_steps > max_steps_) break;
         execute(statement.first);
     }
+    latest_ = nullptr;
     state_ = std::move(left);
     if (state_.cells.empty()) state_.cells.resize(region_.cell_count);
 }

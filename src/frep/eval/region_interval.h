@@ -2,15 +2,17 @@
 // interval in every cell. One executor serves all engines, so that their enclosures are the same.
 //
 // Method: abstract interpretation without widening (P. and R. Cousot, POPL 1977). A condition that is the
-// same for all points takes one side; an undecided one runs both, and the stores are joined cell by cell. An
-// undecided loop condition sets the store aside as one that may leave, and goes on with the same store for
-// those that stay; what leaves is joined. Points whose condition is undefined or that take too many steps are
-// undefined as a whole, which the flag of every result says. Work is bounded: beyond the limits below the
-// answer is "anything, maybe undefined". Tested by tests/unit/eval/region_interval_test.cpp.
+// same for all points takes one side; an undecided one runs both, each with the cells narrowed to what the
+// condition says there (region_narrow.h), and the stores are joined cell by cell. An undecided loop condition
+// sets the store aside as one that may leave and goes on with those that stay; what leaves is joined. Points
+// whose condition is undefined or that take too many steps are undefined as a whole, which the flag of every
+// result says. Work is bounded: beyond the limits below the answer is "anything, maybe undefined". Tested by
+// tests/unit/eval/region_interval_test.cpp.
 #pragma once
 
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "frep/field/region.h"
@@ -40,9 +42,12 @@ class IntervalRegion {
         std::int64_t fewest_steps = 0, most_steps = 0;
         bool reached = true;  ///< false: no point is here, and the rest says nothing
     };
-    /// The sides that a condition may take.
+    /// The sides that a condition may take, and what is known about it: its node and the assignments made
+    /// since the nodes below it were computed (see narrow()).
     struct Sides {
         bool first = false, second = false;
+        NodeId node = 0;
+        std::span<const std::pair<std::uint32_t, NodeId>> assigned;
     };
 
     void execute(std::span<const std::uint32_t> statements);
@@ -50,6 +55,7 @@ class IntervalRegion {
     void loop(const RegionStatement& statement, std::uint32_t number);
     void store(const RegionStatement& statement);
     Sides decide(const RegionStatement& statement, std::uint32_t number);
+    void keep(State& state, const Sides& sides, bool truth) const;
     void evaluate(std::uint32_t number);
     math::Interval load(const Node& node, math::Interval index);
     void join(State& into, const State& other);
@@ -60,8 +66,9 @@ class IntervalRegion {
     std::vector<std::vector<NodeId>> needed_;  ///< by statement: nodes of body, ascending
     State state_;
     std::vector<math::Interval> values_, arguments_;
-    bool may_fail_ = false;  ///< some point may be undefined as a whole
-    bool given_up_ = false;  ///< a limit is reached
+    const RegionStatement* latest_ = nullptr;  ///< the assignment just made, nothing after anything else
+    bool may_fail_ = false;                    ///< some point may be undefined as a whole
+    bool given_up_ = false;                    ///< a limit is reached
     int undecided_ = 0;
     std::int64_t work_ = 0;
 };

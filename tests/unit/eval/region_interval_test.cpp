@@ -8,7 +8,7 @@
 #include <cmath>
 #include <string>
 
-#include "frep/lang/model.h"
+#include "frep/frep.h"
 #include "support/random_program.h"
 #include "unit/eval/engines.h"
 #include "unit/eval/region_maker.h"
@@ -51,8 +51,128 @@ TEST_CASE("a loop that takes different numbers of steps joins what leaves") {
     const Interval some = enclosure(steps, {{1.9, 2.1}, {0, 0.05}});
     CHECK(is(some, 1, 2));
     const Interval all = enclosure(steps, {{-2, 2}, {-2, 2}});
-    CHECK(all.lo == 1);
-    CHECK(all.hi == 50);
+    CHECK(is(all, 1, 50));
+}
+
+TEST_CASE("a condition narrows what it reads, on both sides") {
+    Maker m(3);  // if x^2 + abs(y) < 4 and y < 1 : r = x, else r = 10 + y
+    const NodeId sum = m.make(Op::add, {m.make(Op::square, {m.cell(0)}), m.make(Op::abs, {m.cell(1)})});
+    const NodeId within = m.make(Op::logical_and, {m.make(Op::less, {sum, m.number(4.0)}),
+                                                   m.make(Op::less, {m.cell(1), m.number(1.0)})});
+    m.region->program = {m.branch(within, {m.assign({{2, m.cell(0)}})},
+                                  {m.assign({{2, m.make(Op::add, {m.cell(1), m.number(10.0)})}})})};
+    const Interval got = enclosure(field_of(m, 2), {{-50, 50}, {-0.5, 0.5}});
+    CHECK(got.lo == doctest::Approx(-2));
+    CHECK(got.hi == doctest::Approx(10.5));
+    const Interval right = enclosure(field_of(m, 2), {{3, 50}, {2, 3}});
+    CHECK(right.lo == doctest::Approx(12));
+}
+
+namespace {
+
+/// A random expression over the first two cells, or a random condition.
+struct RandomExpression {
+    Maker& maker;
+    test::RandomProgram& random;
+
+    NodeId value(int depth) {
+        if (depth == 0 || random.pick(5) == 0)
+            return random.pick(4) == 0 ? maker.number(random.number()) : maker.cell(random.pick(2) ? 1u : 0u);
+        switch (random.pick(8)) {
+            case 0:
+            case 1:
+                return maker.make(Op::add, {value(depth - 1), value(depth - 1)});
+            case 2:
+                return maker.make(Op::sub, {value(depth - 1), value(depth - 1)});
+            case 3:
+                return maker.make(Op::neg, {value(depth - 1)});
+            case 4:
+                return maker.make(Op::square, {value(depth - 1)});
+            case 5:
+                return maker.make(Op::pow, {value(depth - 1), maker.number(2.0)});
+            case 6:
+                return maker.make(Op::sqrt, {value(depth - 1)});
+            default:
+                return maker.make(Op::abs, {value(depth - 1)});
+        }
+    }
+    NodeId condition(int depth) {
+        const int kind = random.pick(depth > 0 ? 6 : 2);
+        if (kind < 2) return maker.make(kind ? Op::less : Op::less_equal, {value(3), value(2)});
+        if (kind == 2) return maker.make(Op::logical_not, {condition(depth - 1)});
+        return maker.make(kind == 3 ? Op::logical_or : Op::logical_and,
+                          {condition(depth - 1), condition(depth - 1)});
+    }
+};
+
+/// The number of sampled values outside of the enclosure.
+std::size_t misses(const Field& field, test::RandomProgram& random) {
+    constexpr std::size_t samples = 64;
+    std::vector<Interval> box;
+    Columns<double> points(2, samples);
+    for (std::size_t i = 0; i < 2; ++i) {
+        const double low = random.number(), width = random.pick(5) * 0.7;
+        box.emplace_back(low, low + width);
+        for (std::size_t p = 0; p < samples; ++p)
+            points.columns[i][p] = std::min(low + width * random.pick(17) / 16.0, low + width);
+    }
+    const Interval got = enclosure(field, box);
+    const auto vm = engine(field, Engine::vm);
+    std::size_t count = 0;
+    const Columns<double> values = values_of(*vm, points, samples);
+    for (const double v : values.columns[0]) count += v == v ? !got.contains(v) : !got.maybe_undefined;
+    return count;
+}
+
+}  // namespace
+
+TEST_CASE("narrowing keeps every point, for random conditions and assignments before them") {
+    const std::size_t count = std::max<std::size_t>(4000, scale(200'000));
+    for (std::uint64_t seed = 1; seed <= count; ++seed) {
+        CAPTURE(seed);
+        test::RandomProgram random(seed);
+        Maker m(4);
+        RandomExpression expressions{m, random};
+        const NodeId condition = expressions.condition(2);
+        NodeId tested = condition;
+        std::vector<std::uint32_t> program;
+        if (seed % 2) {  // the condition is a cell, assigned together with new contents of the other cells
+            std::vector<std::pair<std::uint32_t, NodeId>> assignments{{2, condition}};
+            if (random.pick(3)) assignments.emplace_back(0, expressions.value(2));
+            if (random.pick(3)) assignments.emplace_back(1, expressions.value(2));
+            program.push_back(m.assign(assignments));
+            tested = m.cell(2);
+        }
+        const auto keep = [&](std::uint32_t cell) { return m.assign({{3, m.cell(cell)}}); };
+        program.push_back(
+            m.branch(tested, {keep(random.pick(2) ? 1u : 0u)}, {keep(random.pick(2) ? 1u : 0u)}));
+        m.region->program = program;
+        CHECK(misses(field_of(m, 3), random) == 0);
+    }
+}
+
+TEST_CASE("an escape loop written in HyperFun is pruned") {
+    const char* const text =
+        "my_model(x[3], a[1]) { p = x[1]; q = x[2]; r = x[3]; w = 0; i = 0; n = p^2 + q^2 + r^2 + w^2;"
+        " while i < 40 and n < 16 loop t = p^2 - q^2 - r^2 - w^2 - 0.2; q = 2*p*q + 0.8; r = 2*p*r;"
+        " w = 2*p*w; p = t; n = p^2 + q^2 + r^2 + w^2; i = i + 1; endloop; my_model = 4 - n; }";
+    const auto field = Model(Source("julia.hf", text)).field();
+    REQUIRE(static_cast<bool>(field));
+    REQUIRE(has_regions(*field));
+    const auto outside = [&](const Interval& part) { return part.hi < 0 && !part.maybe_undefined; };
+    CHECK(outside(enclosure(*field, {{3, 3.5}, {0, 0.5}, {-0.5, 0.5}})));
+    CHECK(outside(enclosure(*field, {{-0.1, 0.1}, {1.6, 1.8}, {-0.1, 0.1}})));
+    ContourOptions options;
+    options.bounds = Box3::cube(4);
+    options.cells = 64;
+    const auto pruned = contour(*field, options);
+    options.prune = false;
+    const auto full = contour(*field, options);
+    REQUIRE(static_cast<bool>(pruned));
+    REQUIRE(static_cast<bool>(full));
+    CHECK(pruned->sampled_blocks * 5 < full->sampled_blocks);
+    CHECK(pruned->mesh.vertices == full->mesh.vertices);
+    CHECK(pruned->mesh.triangles == full->mesh.triangles);
 }
 
 TEST_CASE("branches: one side where the condition is decided, both joined where it is not") {
