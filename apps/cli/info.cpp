@@ -190,7 +190,7 @@ std::string object_text(const Model& model, const ObjectFacts& facts) {
     out += fmt::format("  operations  {} as written, {} after simplification\n",
                        facts.lowered.operations_before, facts.operations_after);
     if (facts.lowered.has_regions)
-        out += "  loops       some depend on the point: no pruning, a mesh costs N^3\n";
+        out += "  loops       some depend on the point: pruning may find less\n";
     return out;
 }
 

@@ -48,10 +48,11 @@ void Lowerer::import_frame(const Frame& outer, const Effects& effects, Frame& in
 
 void Lowerer::region(const StatementNode& statement, StatementId id) {
     ++guarded_uses_;
-    report(Severity::note, "HF110", program_.expressions[statement.value].span,
-           "this loop runs a different number of steps from point to point", "depends on the point",
-           "the model works, but regions of space cannot be skipped, so meshing costs the cube of the "
-           "resolution");
+    report(
+        Severity::note, "HF110", program_.expressions[statement.value].span,
+        "this loop runs a different number of steps from point to point", "depends on the point",
+        "the model works; where the steps differ much within a small part of space, nothing is known about "
+        "the part as a whole, and every point of it is looked at");
     const Effects effects = effects_.of_statement(*frame().object, id);
     const auto region = std::make_shared<Region>();
     region->origin = statement.span;
