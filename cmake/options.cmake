@@ -24,10 +24,16 @@ endif()
 add_library(frep_settings INTERFACE)
 target_compile_features(frep_settings INTERFACE cxx_std_20)
 target_compile_options(frep_settings INTERFACE
-  -ffp-contract=off -fno-math-errno -fno-trapping-math
+  -ffp-contract=off $<BUILD_INTERFACE:-fno-math-errno>
+  $<BUILD_INTERFACE:-fno-trapping-math>
   $<BUILD_INTERFACE:-Wall> $<BUILD_INTERFACE:-Wextra> $<BUILD_INTERFACE:-Wpedantic>
   $<BUILD_INTERFACE:-Wshadow> $<BUILD_INTERFACE:-Wnon-virtual-dtor>
-  $<$<CXX_COMPILER_ID:GNU>:-Wno-psabi>)
+  $<BUILD_INTERFACE:$<$<CXX_COMPILER_ID:GNU>:-Wno-psabi>>)
+# g++ 12 warns of string and vector code of its own library where it inlines it (GCC bugs 105329, 105651).
+target_compile_options(frep_settings INTERFACE
+  $<BUILD_INTERFACE:$<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>>
+  $<BUILD_INTERFACE:$<$<CXX_COMPILER_ID:GNU>:-Wno-stringop-overflow>>
+  $<BUILD_INTERFACE:$<$<CXX_COMPILER_ID:GNU>:-Wno-aggressive-loop-optimizations>>)
 if(FREP_WERROR)
   target_compile_options(frep_settings INTERFACE $<BUILD_INTERFACE:-Werror>)
 endif()
