@@ -102,7 +102,6 @@ Painter::Painter(const DistanceGrid& grid, FieldPool& fields, const SceneOptions
                  const PictureOptions& options, double lowest)
     : grid_(grid),
       fields_(fields),
-      scene_(scene),
       options_(options),
       material_(material_of(options)),
       section_material_{"section", "", {options.section_color, 0, 0.8, 0}},

@@ -46,7 +46,6 @@ class Painter {
 
     const DistanceGrid& grid_;
     FieldPool& fields_;
-    const SceneOptions& scene_;
     const PictureOptions& options_;
     const NamedMaterial& material_;
     NamedMaterial section_material_;
