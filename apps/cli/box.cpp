@@ -33,6 +33,21 @@ std::optional<Box3> annotated_bounds(const PreparedModel& prepared) {
     return Box3{{low[0], low[1], low[2]}, {high[0], high[1], high[2]}};
 }
 
+/// The stated box in space; a rectangle lies across the last axis that no coordinate takes.
+Result<Box3> stated_bounds(const PreparedModel& prepared, const StatedBounds& stated) {
+    if (!stated.is_flat) return stated.box;
+    int free = -1;
+    for (int axis = 0; axis < 3; ++axis)
+        if (!prepared.map.uses(axis)) free = axis;
+    if (free < 0)
+        return Error{ErrorKind::invalid_argument,
+                     "--bounds: four numbers bound a 2-D model; this one is 3-D and needs six, "
+                     "ax,bx,ay,by,az,bz"};
+    const Plane low = Plane::across(free, -10), high = Plane::across(free, 10);
+    return Box3{low.point({stated.box.min.x, stated.box.min.y}),
+                high.point({stated.box.max.x, stated.box.max.y})};
+}
+
 }  // namespace
 
 std::string side_list(const std::array<bool, 6>& sides) {
@@ -42,9 +57,9 @@ std::string side_list(const std::array<bool, 6>& sides) {
     return out;
 }
 
-Result<Box3> choose_box(const PreparedModel& prepared, const std::optional<Box3>& stated, SampledField& field,
-                        const Job& job) {
-    if (stated) return *stated;
+Result<Box3> choose_box(const PreparedModel& prepared, const std::optional<StatedBounds>& stated,
+                        SampledField& field, const Job& job) {
+    if (stated) return stated_bounds(prepared, *stated);
     if (const auto box = annotated_bounds(prepared)) return *box;
     BoundsOptions options;
     for (int axis = 0; axis < 3; ++axis)

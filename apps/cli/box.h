@@ -7,14 +7,15 @@
 #include <string>
 
 #include "model_input.h"
+#include "values.h"
 
 namespace frep::cli {
 
 /// The box for a prepared model: `stated` if there is one, else the annotation, else automatic_bounds() with
 /// a warning when the shape has no end. An axis that no coordinate takes spans -10..10 unless stated. Errors:
-/// cancelled.
-Result<Box3> choose_box(const PreparedModel& prepared, const std::optional<Box3>& stated, SampledField& field,
-                        const Job& job);
+/// invalid_argument for a rectangle of a model that uses all three axes, cancelled.
+Result<Box3> choose_box(const PreparedModel& prepared, const std::optional<StatedBounds>& stated,
+                        SampledField& field, const Job& job);
 
 /// "-x, +z": the sides that are true.
 std::string side_list(const std::array<bool, 6>& sides);

@@ -63,7 +63,7 @@ int refuse_target(const ConvertOptions& options, MeshFormat target) {
 
 int convert_model(const ConvertOptions& options, MeshFormat target) {
     if (const int refused = refuse_target(options, target)) return refused;
-    std::optional<Box3> stated;
+    std::optional<StatedBounds> stated;
     if (options.bounds) {
         const auto box = parse_bounds(*options.bounds);
         if (!box) return usage_error("--bounds: " + box.error().message);

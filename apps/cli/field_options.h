@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "model_input.h"
+#include "values.h"
 
 namespace frep::cli {
 
@@ -20,7 +21,7 @@ void declare_field_options(CommandLine& line, FieldOptionTexts& options);
 /// What they mean; the model is not looked at.
 struct FieldPlan {
     std::optional<std::pair<int, double>> section;  ///< axis and value
-    std::optional<Box3> bounds;
+    std::optional<StatedBounds> bounds;
     std::optional<Rectangle> part;  ///< of the plane, from four numbers
     FieldPictureOptions picture;    ///< size and levels
 };

@@ -199,7 +199,8 @@ void declare_mesh_options(CommandLine& line, MeshOptions& options) {
     line.text("--layer", options.layer, "LENGTH", "slices of this thickness, for a .cli file");
     line.text("--iso", options.iso, "V", "the surface F = V (default 0)");
     line.flag("--cap", options.cap, "close the shape where the box cuts it");
-    line.text("--bounds", options.bounds, "BOX", "v, or min,max, or ax,bx,ay,by,az,bz (default: found)");
+    line.text("--bounds", options.bounds, "BOX",
+              "v, or min,max, or ax,bx,ay,by,az,bz; 2-D: ax,bx,ay,by (default: found)");
     line.text("--report", options.report, "FILE.json", "checks and measures of the mesh");
     line.flag("--json", options.json, "the report on standard output");
     line.text("--require", options.require, "LIST",

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "model_input.h"
+#include "values.h"
 
 namespace frep::cli {
 
@@ -30,7 +31,7 @@ struct MeshTarget {
 struct MeshPlan {
     std::optional<MeshTarget> target;
     std::vector<std::string> objects;  ///< names of `--object`; one, perhaps empty, unless there is a list
-    std::optional<Box3> bounds;
+    std::optional<StatedBounds> bounds;
     double iso = 0;
     std::optional<int> cells;
     double cell_length = 0;

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "model_input.h"
+#include "values.h"
 
 namespace frep::cli {
 
@@ -21,7 +22,7 @@ void declare_render_options(CommandLine& line, RenderOptionTexts& options);
 struct RenderPlan {
     PictureOptions picture;
     PictureQuality quality = PictureQuality::normal;
-    std::optional<Box3> bounds;
+    std::optional<StatedBounds> bounds;
     double iso = 0;
     std::optional<std::pair<int, double>> section;  ///< axis and value
     int turntable = 0;                              ///< pictures of a turn; 0: one picture

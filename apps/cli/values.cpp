@@ -129,7 +129,7 @@ Result<std::size_t> parse_size(std::string_view text) {
     return static_cast<std::size_t>(*bytes);
 }
 
-Result<Box3> parse_bounds(std::string_view text) {
+Result<StatedBounds> parse_bounds(std::string_view text) {
     const auto values = parse_numbers(text);
     if (!values) return values.error();
     const std::vector<double>& v = *values;
@@ -141,14 +141,17 @@ Result<Box3> parse_bounds(std::string_view text) {
         box = Box3::cube(v[0]);
     } else if (v.size() == 2) {
         box = {{v[0], v[0], v[0]}, {v[1], v[1], v[1]}};
+    } else if (v.size() == 4) {
+        box = {{v[0], v[2], -1}, {v[1], v[3], 1}};
     } else if (v.size() == 6) {
         box = {{v[0], v[2], v[4]}, {v[1], v[3], v[5]}};
     } else {
-        return wrong(text, "1, 2 or 6 numbers: v, or min,max, or ax,bx,ay,by,az,bz");
+        return wrong(
+            text, "1, 2, 4 or 6 numbers: v, or min,max, or ax,bx,ay,by for 2-D models, or ax,bx,ay,by,az,bz");
     }
     if (!(box.min.x < box.max.x && box.min.y < box.max.y && box.min.z < box.max.z))
         return wrong(text, "a box: every least value must be below its greatest");
-    return box;
+    return StatedBounds{box, v.size() == 4};
 }
 
 std::vector<std::string_view> split_at_commas(std::string_view text) {

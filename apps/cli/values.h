@@ -31,8 +31,13 @@ Result<std::vector<double>> parse_numbers(std::string_view text);
 Result<double> parse_duration(std::string_view text);
 /// `1000000`, `512M`, `2G`, `2GiB`: bytes (K, M, G, T are powers of 1024), > 0.
 Result<std::size_t> parse_size(std::string_view text);
-/// `v` (the cube of half side v), `min,max` (all axes) or `ax,bx,ay,by,az,bz`.
-Result<Box3> parse_bounds(std::string_view text);
+/// What `--bounds` says: a box of space, or a rectangle for models of the plane.
+struct StatedBounds {
+    Box3 box;
+    bool is_flat = false;  ///< a rectangle: x and y of the box are the plane's two axes, z counts for nothing
+};
+/// `v` (the cube of half side v), `min,max` (all axes), `ax,bx,ay,by` or `ax,bx,ay,by,az,bz`.
+Result<StatedBounds> parse_bounds(std::string_view text);
 
 /// The pieces of `text` between commas.
 std::vector<std::string_view> split_at_commas(std::string_view text);
