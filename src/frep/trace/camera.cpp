@@ -65,14 +65,17 @@ Camera::Camera(const View& view, std::span<const Vec3> points, int width, int he
     const double tangent = math::tan(0.5 * view.field_of_view * radians);
     scale_ = tangent / longer;
     // The eye stands at w0; it goes back until every point fits, then sideways until they are in the middle.
-    double w0 = w.lo - size;
-    for (int round = 0; round < 6; ++round) {
-        w0 = w.lo - 0.05 * size;
+    const auto step_back = [&] {
+        double place = w.lo - 0.05 * size;
         for (const Vec3& p : points) {
             const double pu = __builtin_fabs(dot(p, frame_.right) - mu) / (scale_ * half_width_ * fill);
             const double pv = __builtin_fabs(dot(p, frame_.up) - mv) / (scale_ * half_height_ * fill);
-            w0 = std::min(w0, dot(p, frame_.forward) - std::max(pu, pv));
+            place = std::min(place, dot(p, frame_.forward) - std::max(pu, pv));
         }
+        return place;
+    };
+    double w0 = step_back();
+    for (int round = 0; round < 6; ++round) {
         Range x, y;
         for (const Vec3& p : points) {
             const double depth = dot(p, frame_.forward) - w0;
@@ -82,6 +85,7 @@ Camera::Camera(const View& view, std::span<const Vec3> points, int width, int he
         const double depth = w.middle() - w0;
         mu += x.middle() * depth;
         mv += y.middle() * depth;
+        w0 = step_back();
     }
     scale_ /= view.zoom;
     pixel_ = scale_ * (w.middle() - w0);
