@@ -2,10 +2,10 @@
 #include <fmt/format.h>
 
 #include "box.h"
-#include "budget.h"
 #include "command_line.h"
 #include "field_options.h"
 #include "json.h"
+#include "picture_file.h"
 #include "terminal.h"
 #include "values.h"
 #include "verbs.h"
@@ -32,7 +32,8 @@ class FieldRun {
         if (!picture) return fail(picture.error());
         warn(*picture);
         if (options_.output) {
-            if (const int code = write(picture->image)) return code;
+            if (const int code = write_picture(picture->image, prepared_.model, *options_.output))
+                return code;
             print_summary(fmt::format(
                 "{} x {} pixels to {} in {:.2f} s", picture->image.width, picture->image.height,
                 *options_.output == "-" ? "standard output" : *options_.output, now_seconds() - start_));
@@ -105,21 +106,6 @@ class FieldRun {
         const double share =
             100 * static_cast<double>(picture.undefined) / static_cast<double>(picture.samples);
         print_warning(fmt::format("F is undefined in {:.3g} % of the picture, hatched there", share));
-    }
-
-    int write(const Image& image) const {
-        const auto& notes = prepared_.model.program().annotations;
-        PngOptions options;
-        options.title = notes.title;
-        options.author = notes.author;
-        options.license = notes.license;
-        options.software = fmt::format("frep {}", version());
-        const auto bytes = encode_png(image, options);
-        if (!bytes) return fail(bytes.error());
-        if (*options_.output == "-") return print_result(*bytes);
-        const WritingFile guard;
-        if (const Status status = write_file(*options_.output, *bytes); !status) return fail(status.error());
-        return exit_ok;
     }
 
     std::string report(const FieldPicture& picture) const {

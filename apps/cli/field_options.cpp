@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "render_options.h"
 #include "values.h"
 
 namespace frep::cli {
@@ -29,15 +30,10 @@ Status plan_section(const std::string& text, FieldPlan& plan) {
 }
 
 Status plan_size(const std::string& text, FieldPlan& plan) {
-    const std::string lower = lower_case(text);
-    const std::size_t mark = lower.find('x');
-    const std::string_view all = lower;
-    const auto width = parse_integer(all.substr(0, mark), 1, greatest_picture_side);
-    const auto height =
-        mark == lower.npos ? width : parse_integer(all.substr(mark + 1), 1, greatest_picture_side);
-    if (!width || !height) return usage(fmt::format("--size: `{}` is not like 1200x900, or 800", text));
-    plan.picture.width = static_cast<int>(*width);
-    plan.picture.height = static_cast<int>(*height);
+    const auto size = parse_size_pixels(text);
+    if (!size) return about("--size", size.error());
+    plan.picture.width = size->first;
+    plan.picture.height = size->second;
     return {};
 }
 

@@ -1,4 +1,5 @@
-// `frep render`: pictures of a solid. Tested by tests/cli/render.txt and render_usage.txt.
+// `frep render`: pictures of a solid; shapes of the plane go to render_flat.h. Tested by tests/cli/render.txt
+// and render_usage.txt.
 #include <algorithm>
 #include <filesystem>
 #include <optional>
@@ -6,8 +7,9 @@
 #include <fmt/format.h>
 
 #include "box.h"
-#include "budget.h"
 #include "command_line.h"
+#include "picture_file.h"
+#include "render_flat.h"
 #include "render_options.h"
 #include "terminal.h"
 #include "verbs.h"
@@ -87,7 +89,7 @@ class RenderRun {
         const auto image = scene.picture(plan_.picture, job_);
         job_.on_progress = nullptr;
         if (!image) return fail(image.error());
-        if (const int code = write(*image, *options_.output)) return code;
+        if (const int code = write_picture(*image, prepared_.model, *options_.output)) return code;
         summarize(*options_.output);
         return exit_ok;
     }
@@ -102,24 +104,10 @@ class RenderRun {
             if (!image) return fail(image.error());
             bar.update(static_cast<double>(n + 1) / plan_.turntable);
             const std::string name = fmt::format("{}-{:03}.png", path.stem().string(), n + 1);
-            if (const int code = write(*image, (path.parent_path() / name).string())) return code;
+            if (const int code = write_picture(*image, prepared_.model, (path.parent_path() / name).string()))
+                return code;
         }
         summarize(fmt::format("{} files beside {}", plan_.turntable, *options_.output));
-        return exit_ok;
-    }
-
-    int write(const Image& image, const std::string& path) const {
-        const auto& notes = prepared_.model.program().annotations;
-        PngOptions options;
-        options.title = notes.title;
-        options.author = notes.author;
-        options.license = notes.license;
-        options.software = fmt::format("frep {}", version());
-        const auto bytes = encode_png(image, options);
-        if (!bytes) return fail(bytes.error());
-        if (path == "-") return print_result(*bytes);
-        const WritingFile guard;
-        if (const Status status = write_file(path, *bytes); !status) return fail(status.error());
         return exit_ok;
     }
 
@@ -137,30 +125,13 @@ class RenderRun {
     double start_;
 };
 
-/// A solid needs three axes; tells how to get them.
-int refuse_flat(const PreparedModel& prepared) {
-    const int n = prepared.header().coordinates();
-    if (n < 3) {
-        print_error(fmt::format("the object has {} coordinate{}; a solid needs 3", n, n == 1 ? "" : "s"));
-        print_help_line("`frep field` shows functions of the plane");
-        return exit_usage;
-    }
-    for (int axis = 0; axis < 3; ++axis) {
-        if (prepared.map.uses(axis)) continue;
-        print_error(
-            fmt::format("--map: no coordinate is mapped to {}; a solid needs x, y and z", "xyz"[axis]));
-        return exit_usage;
-    }
-    return exit_ok;
-}
-
 }  // namespace
 
 int run_render(Arguments arguments) {
     RenderOptionTexts options;
     CommandLine line(
         "render", "render MODEL -o FILE.png [options]",
-        "Makes a picture of a solid: rays against the function itself.",
+        "Makes a picture of a solid (rays against the function itself) or of a plane shape.",
         {"frep render pot.hf -o pot.png", "frep render pot.hf -o pot.png --material lacquer --view iso",
          "frep render pot.hf -o inside.png --section y=0 --size 1600x1200"});
     declare_render_options(line, options);
@@ -170,7 +141,7 @@ int run_render(Arguments arguments) {
     int code = exit_ok;
     const auto prepared = prepare_model(options.model, code);
     if (!prepared) return code;
-    if (const int refused = refuse_flat(*prepared)) return refused;
+    if (is_flat(*prepared)) return render_flat(options, *plan, *prepared);
     return RenderRun(options, std::move(*plan), *prepared).run();
 }
 

@@ -1,0 +1,83 @@
+// Implementation of render_flat.h.
+#include "render_flat.h"
+
+#include <fmt/format.h>
+
+#include "box.h"
+#include "picture_file.h"
+#include "terminal.h"
+#include "verbs.h"
+
+namespace frep::cli {
+
+namespace {
+
+/// The last free axis is the one across.
+int free_axis(const PreparedModel& prepared) {
+    int axis = 3;
+    for (int i = 0; i < 3; ++i)
+        if (!prepared.map.uses(i)) axis = i;
+    return axis;
+}
+
+/// The option that a plane picture has no use for, if one is given.
+std::string_view useless_option(const RenderOptionTexts& o) {
+    if (o.view) return "--view";
+    if (o.azimuth) return "--azimuth";
+    if (o.elevation) return "--elevation";
+    if (o.perspective) return "--perspective";
+    if (o.zoom) return "--zoom";
+    if (o.material) return "--material";
+    if (o.section) return "--section";
+    if (o.turntable) return "--turntable";
+    return {};
+}
+
+PlaneRenderOptions picture_options(const RenderPlan& plan, const PreparedModel& prepared, bool flags_color) {
+    const auto& notes = prepared.model.program().annotations;
+    PlaneRenderOptions options;
+    options.plane = Plane::across(free_axis(prepared), 0);
+    options.width = plan.picture.width;
+    options.height = plan.picture.height;
+    if (notes.color.size() == 3) options.color = {notes.color[0], notes.color[1], notes.color[2]};
+    if (plan.picture.color) options.color = *plan.picture.color;
+    options.attribute_colors = flags_color;
+    if (plan.picture.backdrop == Backdrop::transparent) options.background.reset();
+    if (plan.picture.backdrop == Backdrop::plain) options.background = plan.picture.backdrop_color;
+    return options;
+}
+
+}  // namespace
+
+bool is_flat(const PreparedModel& prepared) { return free_axis(prepared) < 3; }
+
+int render_flat(const RenderOptionTexts& options, const RenderPlan& plan, const PreparedModel& prepared) {
+    const double start = now_seconds();
+    if (const std::string_view name = useless_option(options); !name.empty()) {
+        return usage_error(fmt::format("{}: the model leaves the axis {} free, so that its picture is flat",
+                                       name, "xyz"[free_axis(prepared)]));
+    }
+    Job job;
+    job.threads = prepared.threads;
+    const bool colored = prepared.field().attributes.size() >= 3 && !options.base_color;
+    EvaluatorOptions evaluation = prepared.evaluator;
+    evaluation.attributes = colored;
+    auto evaluator = make_evaluator(prepared.field(), evaluation);
+    if (!evaluator) return fail(evaluator.error());
+    auto sampled = make_sampled_field(std::move(*evaluator), prepared.map, plan.iso);
+    if (!sampled) return fail(sampled.error());
+    const auto box = choose_box(prepared, plan.bounds, **sampled, job);
+    if (!box) return fail(box.error());
+    PlaneRenderOptions picture = picture_options(plan, prepared, colored);
+    picture.part = {picture.plane.flat(box->min), picture.plane.flat(box->max)};
+    const auto result = render_plane(**sampled, picture, job);
+    if (!result) return fail(result.error());
+    if (result->area == 0) print_warning("there is nothing to see: the shape is empty in the box");
+    if (const int code = write_picture(result->image, prepared.model, *options.output)) return code;
+    print_summary(fmt::format("{} x {} pixels to {} in {:.2f} s", picture.width, picture.height,
+                              *options.output == "-" ? "standard output" : *options.output,
+                              now_seconds() - start));
+    return exit_ok;
+}
+
+}  // namespace frep::cli

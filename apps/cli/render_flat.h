@@ -1,0 +1,16 @@
+// `frep render` for models that leave an axis of space free: a picture of the plane shape, filled with the
+// model's color. Tested by tests/cli/render_flat.txt.
+#pragma once
+
+#include "model_input.h"
+#include "render_options.h"
+
+namespace frep::cli {
+
+/// True when no coordinate is mapped to some axis: the model is a shape of the plane.
+bool is_flat(const PreparedModel& prepared);
+
+/// Makes and writes the picture; gives the exit code.
+int render_flat(const RenderOptionTexts& options, const RenderPlan& plan, const PreparedModel& prepared);
+
+}  // namespace frep::cli
