@@ -1,6 +1,9 @@
 // Implementation of render_flat.h.
 #include "render_flat.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include <fmt/format.h>
 
 #include "box.h"
@@ -26,9 +29,13 @@ std::string_view useless_option(const RenderOptionTexts& o) {
     if (o.azimuth) return "--azimuth";
     if (o.elevation) return "--elevation";
     if (o.perspective) return "--perspective";
+    if (o.ortho) return "--ortho";
     if (o.zoom) return "--zoom";
     if (o.material) return "--material";
     if (o.section) return "--section";
+    if (o.section_color) return "--section-color";
+    if (o.no_ground) return "--no-ground";
+    if (o.quality) return "--quality";
     if (o.turntable) return "--turntable";
     return {};
 }
@@ -47,15 +54,44 @@ PlaneRenderOptions picture_options(const RenderPlan& plan, const PreparedModel& 
     return options;
 }
 
+/// Stated bounds fill the picture, a box that was found has a margin. Without a stated size the longer side
+/// has 1200 pixels and the shorter one takes the shape of the part, at least a quarter of that.
+void frame(PlaneRenderOptions& picture, const Box3& box, const RenderOptionTexts& options) {
+    picture.part = {picture.plane.flat(box.min), picture.plane.flat(box.max)};
+    if (options.bounds) picture.margin = 0;
+    if (options.size) return;
+    constexpr double longer_side = 1200;
+    const double longer = std::max(picture.part.width(), picture.part.height());
+    const auto side = [&](double length) {
+        return static_cast<int>(std::lround(longer_side * std::clamp(length / longer, 0.25, 1.0)));
+    };
+    picture.width = side(picture.part.width());
+    picture.height = side(picture.part.height());
+}
+
+/// Tells what a picture needs where the object has less than two axes.
+int refuse_thin(const PreparedModel& prepared) {
+    const int n = prepared.header().coordinates();
+    return usage_error(
+        n < 2 ? fmt::format("the object has {} coordinate{}; a picture needs 2 or 3", n, n == 1 ? "" : "s")
+              : std::string("--map: a picture needs two or three of the axes x, y and z"));
+}
+
 }  // namespace
 
 bool is_flat(const PreparedModel& prepared) { return free_axis(prepared) < 3; }
 
 int render_flat(const RenderOptionTexts& options, const RenderPlan& plan, const PreparedModel& prepared) {
     const double start = now_seconds();
+    int axes = 0;
+    for (int axis = 0; axis < 3; ++axis) axes += prepared.map.uses(axis) ? 1 : 0;
+    if (axes < 2) return refuse_thin(prepared);
     if (const std::string_view name = useless_option(options); !name.empty()) {
-        return usage_error(fmt::format("{}: the model leaves the axis {} free, so that its picture is flat",
-                                       name, "xyz"[free_axis(prepared)]));
+        return usage_error(
+            prepared.map_given
+                ? fmt::format("{} is for solids; --map makes this object 2-D: it leaves {} out", name,
+                              "xyz"[free_axis(prepared)])
+                : fmt::format("{} is for solids; this object is 2-D", name));
     }
     Job job;
     job.threads = prepared.threads;
@@ -69,7 +105,7 @@ int render_flat(const RenderOptionTexts& options, const RenderPlan& plan, const 
     const auto box = choose_box(prepared, plan.bounds, **sampled, job);
     if (!box) return fail(box.error());
     PlaneRenderOptions picture = picture_options(plan, prepared, colored);
-    picture.part = {picture.plane.flat(box->min), picture.plane.flat(box->max)};
+    frame(picture, *box, options);
     const auto result = render_plane(**sampled, picture, job);
     if (!result) return fail(result.error());
     if (result->area == 0) print_warning("there is nothing to see: the shape is empty in the box");

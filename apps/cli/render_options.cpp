@@ -224,7 +224,8 @@ Result<std::pair<int, int>> parse_size_pixels(std::string_view text) {
 void declare_render_options(CommandLine& line, RenderOptionTexts& options) {
     declare_model_options(line, options.model);
     line.text("-o,--output", options.output, "FILE", "the picture: .png; - for standard output");
-    line.text("--size", options.size, "WxH", "pixels (default 1200x900); 800 is 800x800");
+    line.text("--size", options.size, "WxH",
+              "pixels (default 1200x900; 2-D: the object's shape); 800 is 800x800");
     line.text("--view", options.view, "NAME", "front, back, left, right, top, bottom or iso");
     line.text("--azimuth", options.azimuth, "ANGLE",
               "degrees around Z, from the front to the right (default 30)");
@@ -241,7 +242,8 @@ void declare_render_options(CommandLine& line, RenderOptionTexts& options) {
     line.text("--background", options.background, "WHAT", "studio (default), transparent or #RRGGBB");
     line.flag("--no-ground", options.no_ground, "no table: the object floats, without a shadow");
     line.text("--iso", options.iso, "V", "the surface F = V (default 0)");
-    line.text("--bounds", options.bounds, "BOX", "v, or min,max, or ax,bx,ay,by,az,bz (default: found)");
+    line.text("--bounds", options.bounds, "BOX",
+              "v, or min,max, or ax,bx,ay,by,az,bz; 2-D: ax,bx,ay,by (default: found)");
     line.text("--quality", options.quality, "NAME", "draft, normal (default) or high");
     line.text("--turntable", options.turntable, "N",
               "N pictures of one turn: FILE-001.png, FILE-002.png, ...");
