@@ -57,15 +57,15 @@ Status check_field(const Field& field, std::span<const NodeId> roots) {
 }  // namespace
 
 Result<std::unique_ptr<Evaluator>> make_evaluator(const Field& field, const EvaluatorOptions& options) {
-    const std::vector<NodeId> roots = options.attributes ? field.roots() : std::vector<NodeId>{field.value};
-    if (Status status = check_field(field, roots); !status) return status.error();
+    if (Status status = check_field(field, field.roots()); !status) return status.error();
     if (options.registers != 0 && options.registers < 3)
         return Error{ErrorKind::invalid_argument, "the vm needs at least 3 registers"};
+    const Field bound = bind_parameters(field);
     switch (options.engine) {
         case Engine::reference:
-            return make_reference(field, options);
+            return make_reference(bound, options);
         case Engine::vm:
-            return make_vm(field, options);
+            return make_vm(bound, options);
     }
     FREP_CHECK(false);
 }

@@ -37,7 +37,7 @@ class Evaluator {
     /// Values computed at a point: 1, or 1 + number of attributes.
     virtual int outputs() const = 0;
     /// Values at `count` points: coordinates[i][p] is coordinate i of point p; out[k][p] receives F (k = 0)
-    /// and the attributes. NaN = undefined.
+    /// and the attributes. `out` has outputs() columns, or one: then F alone is computed. NaN = undefined.
     virtual void values(std::span<const double* const> coordinates, std::size_t count,
                         std::span<double* const> out) = 0;
     /// F and its n partial derivatives: partials[i][p] = dF/dx_i. Total: finite where F is finite.

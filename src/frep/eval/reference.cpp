@@ -89,7 +89,7 @@ class Reference final : public Evaluator {
         for (std::size_t p = 0; p < count; ++p) {
             for (std::size_t i = 0; i < point.size(); ++i) point[i] = coordinates[i][p];
             values_.run(point);
-            for (std::size_t k = 0; k < roots_.size(); ++k) out[k][p] = values_.value(roots_[k]);
+            for (std::size_t k = 0; k < out.size(); ++k) out[k][p] = values_.value(roots_[k]);
         }
     }
 

@@ -22,10 +22,7 @@ class MappedField final : public SampledField {
     void values(const PointSpans& points, std::span<double> out) override {
         const std::size_t count = points.size();
         set_inputs(points);
-        const auto outputs = static_cast<std::size_t>(evaluator_->outputs());
-        unused_.resize((outputs - 1) * count);
         outputs_.assign(1, out.data());
-        for (std::size_t k = 1; k < outputs; ++k) outputs_.push_back(unused_.data() + (k - 1) * count);
         evaluator_->values(inputs_, count, outputs_);
         for (std::size_t p = 0; p < count; ++p) out[p] -= iso_;
     }

@@ -54,8 +54,9 @@ class Vm final : public Evaluator {
     void values(std::span<const double* const> coordinates, std::size_t count,
                 std::span<double* const> out) override {
         const FloatControl control;
-        const Tape& tape = program_->values();
-        Machine<Lanes>& machine = ready(values_, tape);
+        const bool alone = out.size() == 1;
+        const Tape& tape = alone ? program_->f : program_->values();
+        Machine<Lanes>& machine = ready(alone ? f_ : values_, tape);
         const std::size_t batch = machine.width() * lanes;
         for (std::size_t start = 0; start < count; start += batch) {
             const std::size_t points = std::min(batch, count - start);
@@ -131,7 +132,8 @@ class Vm final : public Evaluator {
     }
 
     std::shared_ptr<const Program> program_;
-    std::unique_ptr<Machine<Lanes>> values_;
+    std::unique_ptr<Machine<Lanes>> f_;       ///< F alone
+    std::unique_ptr<Machine<Lanes>> values_;  ///< F and the attributes
     std::unique_ptr<Machine<Dual<Lanes>>> duals_;
     std::unique_ptr<Machine<Interval>> boxes_;
 };

@@ -32,6 +32,11 @@ struct Field {
     }
 };
 
+/// `field` with its parameters replaced by their present values, so that what depends on nothing else is
+/// computed once and not at every point. The values keep their bits. The field itself when no parameter is
+/// used. field.parameters must have a value for each parameter that the graph uses.
+Field bind_parameters(const Field& field);
+
 /// True when a node that F or an attribute needs is a region (a loop that depends on the point).
 bool has_regions(const Field& field);
 

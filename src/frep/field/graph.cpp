@@ -339,6 +339,41 @@ Graph Graph::copy_of(const std::vector<bool>& needed, std::span<NodeId> renamed)
     return out;
 }
 
+Graph Graph::bound_copy(const std::vector<bool>& needed, std::span<const double> parameters,
+                        std::span<NodeId> renamed) const {
+    Graph out;
+    std::vector<std::uint32_t> block_names(blocks_.size(), 0);
+    std::vector<NodeId> args;
+    for (NodeId id = 0; id < nodes_.size(); ++id) {
+        if (!needed[id]) continue;
+        const Node& n = nodes_[id];
+        args.clear();
+        for (const NodeId argument : arguments(id)) args.push_back(renamed[argument]);
+        out.origin_ = origins_[id];
+        if (n.op == Op::constant) {
+            renamed[id] = out.constant(constants_[n.payload]);
+        } else if (n.op == Op::parameter) {
+            renamed[id] = out.constant(parameters[n.payload]);
+        } else if (n.op == Op::coordinate) {
+            renamed[id] = out.coordinate(static_cast<int>(n.payload));
+        } else if (n.op == Op::undefined) {
+            renamed[id] = out.undefined();
+        } else if (n.op == Op::region) {
+            renamed[id] = out.make_region(regions_[n.payload], args);
+        } else if (info(n.op).kind == OpKind::block && n.payload) {
+            std::uint32_t& name = block_names[n.payload - 1];
+            if (!name) name = out.intern_block(blocks_[n.payload - 1]);
+            renamed[id] = out.make(n.op, args, name);
+        } else if (info(n.op).kind == OpKind::block) {
+            const auto lead = static_cast<std::size_t>(info(n.op).arity);
+            renamed[id] = out.make_block(n.op, std::span(args).first(lead), std::span(args).subspan(lead));
+        } else {
+            renamed[id] = out.make(n.op, args, n.payload);
+        }
+    }
+    return out;
+}
+
 OperationCount count_operations(const Graph& graph, std::span<const NodeId> roots) {
     const std::vector<bool> needed = reachable(graph, roots);
     OperationCount count;
@@ -353,6 +388,21 @@ OperationCount count_operations(const Graph& graph, std::span<const NodeId> root
         }
     }
     return count;
+}
+
+Field bind_parameters(const Field& field) {
+    std::vector<NodeId> roots = field.roots();
+    const std::vector<bool> needed = reachable(*field.graph, roots);
+    bool uses_parameters = false;
+    for (NodeId id = 0; id < needed.size() && !uses_parameters; ++id)
+        uses_parameters = needed[id] && field.graph->node(id).op == Op::parameter;
+    if (!uses_parameters) return field;
+    std::vector<NodeId> renamed(field.graph->size());
+    Field out = field;
+    out.graph = std::make_shared<const Graph>(field.graph->bound_copy(needed, field.parameters, renamed));
+    out.value = renamed[field.value];
+    for (NodeId& attribute : out.attributes) attribute = renamed[attribute];
+    return out;
 }
 
 bool has_regions(const Field& field) {

@@ -95,6 +95,11 @@ class Graph {
     /// receives their new numbers.
     Graph copy_of(const std::vector<bool>& needed, std::span<NodeId> renamed) const;
 
+    /// As copy_of(), with parameter i replaced by the constant parameters[i] and what then is constant
+    /// folded.
+    Graph bound_copy(const std::vector<bool>& needed, std::span<const double> parameters,
+                     std::span<NodeId> renamed) const;
+
   private:
     static constexpr std::uint8_t point_flag = 1, parameter_flag = 2;
 

@@ -108,3 +108,36 @@ TEST_CASE("a graph stops at its node limit and says so") {
     CHECK(graph.over_limit());
     CHECK(graph.size() <= Graph::node_limit);
 }
+
+TEST_CASE("bound parameters become constants and fold") {
+    Graph graph;
+    graph.set_parameters({3, 5});
+    const NodeId power = graph.make(Op::pow, {graph.parameter(0), graph.constant(4)});
+    const NodeId sum = graph.make(Op::add, {power, graph.coordinate(0)});
+    const NodeId data[] = {graph.constant(0), graph.parameter(1), graph.constant(0), graph.constant(1),
+                           graph.constant(1)};
+    const NodeId lead[] = {graph.coordinate(0), graph.coordinate(1), graph.coordinate(2)};
+    const NodeId blob = graph.make_block(Op::blobby, lead, data);
+    Field field;
+    field.value = graph.make(Op::mul, {sum, blob});
+    field.attributes = {graph.parameter(1), graph.undefined()};
+    field.parameters = {2, 7};  // rebound: other values than the graph was made for
+    field.graph = std::make_shared<const Graph>(std::move(graph));
+
+    const Field bound = bind_parameters(field);
+    for (NodeId id = 0; id < bound.graph->size(); ++id) CHECK(bound.graph->node(id).op != Op::parameter);
+    CHECK(bound.graph->constant_value(bound.attributes[0]) == 7);
+    CHECK(bound.graph->node(bound.attributes[1]).op == Op::undefined);
+    const auto factors = bound.graph->arguments(bound.value);
+    REQUIRE(bound.graph->node(factors[0]).op == Op::add);
+    const auto terms = bound.graph->arguments(factors[0]);
+    const bool constant_first = bound.graph->node(terms[0]).op == Op::constant;
+    CHECK(bound.graph->constant_value(terms[constant_first ? 0 : 1]) == 16);
+    REQUIRE(bound.graph->block_of(factors[1]).size() == 5);
+    CHECK(bound.graph->block_of(factors[1])[1] == 7);
+
+    Field plain = field;
+    plain.value = lead[0];
+    plain.attributes.clear();
+    CHECK(bind_parameters(plain).graph == plain.graph);
+}
