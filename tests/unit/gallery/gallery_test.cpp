@@ -14,6 +14,19 @@ using namespace frep;
 
 namespace {
 
+/// Sanitizers make a test ten times slower: one resolution is enough for them.
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+const std::vector<int> resolutions{48};
+#elif defined(__has_feature)
+#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
+const std::vector<int> resolutions{48};
+#else
+const std::vector<int> resolutions{48, 72, 96};
+#endif
+#else
+const std::vector<int> resolutions{48, 72, 96};
+#endif
+
 const std::filesystem::path examples = std::filesystem::path(FREP_SOURCE_DIR) / "examples";
 
 std::vector<std::filesystem::path> models_in(const std::filesystem::path& folder) {
@@ -75,7 +88,7 @@ TEST_CASE("every solid of the gallery gives a closed, oriented manifold at three
     for (const auto& path : models_in(examples)) {
         const Loaded loaded = load(path);
         if (loaded.field.coordinates < 3) continue;
-        for (const int cells : {48, 72, 96}) {
+        for (const int cells : resolutions) {
             CAPTURE(path.filename().string());
             CAPTURE(cells);
             const auto surface = contour(loaded.field, {.bounds = loaded.box, .cells = cells});
