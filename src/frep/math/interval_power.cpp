@@ -109,6 +109,11 @@ Interval negative_power(double lo, double hi, double n, double m, bool& undefine
 }  // namespace
 
 Interval pow(Interval b, Interval e) {
+    if (e.lo == 2.0 && e.hi == 2.0 && !e.maybe_undefined) {  // by far the most frequent: no chain needed
+        Interval r = square(b);
+        if (b.lo < kernel::power_snap && b.hi > -kernel::power_snap) r.lo = 0.0;
+        return r;
+    }
     if (b.is_empty() || e.is_empty()) return Interval::empty();
     const double n = kernel::snapped_exponent(e.lo), snapped = kernel::snapped_exponent(e.hi);
     const double m = n == snapped ? n : e.hi;

@@ -76,6 +76,7 @@ inline double pow(double b, double e) { return takes_chain(e) ? pow_chain(b, e) 
 template <int N>
 inline LanesN<N> pow(LanesN<N> b, LanesN<N> e) {
     using T = LanesN<N>;
+    if (all(equal(e, T(2.0)))) return select(less(abs(b), T(power_snap)), T(0.0), b * b);  // the chain of 2
     const auto chain = takes_chain(e);
     if (all(chain)) {
         const T n = snapped_exponent(e);
