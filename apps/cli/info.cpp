@@ -189,8 +189,7 @@ std::string object_text(const Model& model, const ObjectFacts& facts) {
                                               : fmt::format("{}", fmt::join(facts.lowered.functions, " ")));
     out += fmt::format("  operations  {} as written, {} after simplification\n",
                        facts.lowered.operations_before, facts.operations_after);
-    if (facts.lowered.has_regions)
-        out += "  loops       some depend on the point: pruning may find less\n";
+    if (facts.lowered.has_regions) out += "  loops       some depend on the point: pruning may find less\n";
     return out;
 }
 
