@@ -36,14 +36,12 @@ std::optional<Box3> annotated_bounds(const PreparedModel& prepared) {
 /// The stated box in space; a rectangle lies across the last axis that no coordinate takes.
 Result<Box3> stated_bounds(const PreparedModel& prepared, const StatedBounds& stated) {
     if (!stated.is_flat) return stated.box;
-    int free = -1;
-    for (int axis = 0; axis < 3; ++axis)
-        if (!prepared.map.uses(axis)) free = axis;
-    if (free < 0)
+    const std::optional<int> free = unused_axis(prepared);
+    if (!free)
         return Error{ErrorKind::invalid_argument,
                      "--bounds: four numbers bound a 2-D model; this one is 3-D and needs six, "
                      "ax,bx,ay,by,az,bz"};
-    const Plane low = Plane::across(free, -10), high = Plane::across(free, 10);
+    const Plane low = Plane::across(*free, -10), high = Plane::across(*free, 10);
     return Box3{low.point({stated.box.min.x, stated.box.min.y}),
                 high.point({stated.box.max.x, stated.box.max.y})};
 }

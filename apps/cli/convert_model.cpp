@@ -82,9 +82,7 @@ int convert_model(const ConvertOptions& options, MeshFormat target) {
         if (!prepared->map.uses(axis))
             return usage_error(fmt::format(
                 "no coordinate of the object is mapped to {}; an isosurface needs x, y and z", "xyz"[axis]));
-    auto evaluator = make_evaluator(prepared->field(), prepared->evaluator);
-    if (!evaluator) return fail(evaluator.error());
-    auto field = make_sampled_field(std::move(*evaluator), prepared->map);
+    const auto field = sampled_field(*prepared);
     if (!field) return fail(field.error());
     const auto box = choose_box(*prepared, stated, **field, Job{});
     if (!box) return fail(box.error());
@@ -93,7 +91,7 @@ int convert_model(const ConvertOptions& options, MeshFormat target) {
     for (const MappedCoordinate& c : prepared->map.coordinates) pov.coordinates.push_back({c.axis, c.value});
     const auto& notes = prepared->model.program().annotations;
     pov.title = notes.title;
-    if (notes.color.size() == 3) pov.color = {notes.color[0], notes.color[1], notes.color[2]};
+    if (const auto color = annotated_color(prepared->model)) pov.color = {color->r, color->g, color->b};
     pov.source = &prepared->model.source();
     const auto text = lang::pov_isosurface(prepared->field(), pov);
     if (!text) return fail(text.error());

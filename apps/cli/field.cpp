@@ -22,9 +22,7 @@ class FieldRun {
     }
 
     int run() {
-        auto evaluator = make_evaluator(prepared_.field(), prepared_.evaluator);
-        if (!evaluator) return fail(evaluator.error());
-        auto sampled = make_sampled_field(std::move(*evaluator), prepared_.map);
+        const auto sampled = sampled_field(prepared_);
         if (!sampled) return fail(sampled.error());
         if (const Status status = choose_plane(**sampled); !status) return fail(status.error());
         describe();
@@ -45,10 +43,7 @@ class FieldRun {
     /// The stated section; else across the last axis that no coordinate takes, or z, in the middle of the
     /// box.
     Status choose_plane(SampledField& field) {
-        int normal = 2;
-        for (int axis = 0; axis < 3; ++axis)
-            if (!prepared_.map.uses(axis)) normal = axis;
-        if (plan_.section) normal = plan_.section->first;
+        const int normal = plan_.section ? plan_.section->first : unused_axis(prepared_).value_or(2);
         FieldPictureOptions& picture = plan_.picture;
         picture.plane = Plane::across(normal, plan_.section ? plan_.section->second : 0);
         const bool box_needed = !plan_.part || (!plan_.section && prepared_.map.uses(normal));

@@ -5,8 +5,8 @@
 #include <fmt/format.h>
 
 #include "box.h"
-#include "mesh_field.h"
 #include "mesh_kinds.h"
+#include "mesh_model.h"
 #include "mesh_output.h"
 #include "mesh_report.h"
 #include "terminal.h"
@@ -23,7 +23,7 @@ class LayerRun {
     }
 
     int run() {
-        const auto field = mesh_field(prepared_, plan_.iso, false);
+        const auto field = sampled_field(prepared_, plan_.iso);
         if (!field) return fail(field.error());
         const auto box = choose_box(prepared_, plan_.bounds, **field, job_);
         if (!box) return fail(box.error());

@@ -172,8 +172,8 @@ Status plan_extras(const MeshOptions& options, MeshPlan& plan) {
 }
 
 Status plan_objects(const MeshOptions& options, MeshPlan& plan) {
-    for (const std::string_view name : split_at_commas(options.model.object.value_or("")))
-        plan.objects.emplace_back(name);
+    const std::string names = options.model.object.value_or("");
+    for (const std::string_view name : split_at_commas(names)) plan.objects.emplace_back(name);
     if (plan.objects.size() < 2) return {};
     if (options.model.input == "-")
         return usage("--object: a list of objects needs the model in a file, not on standard input");

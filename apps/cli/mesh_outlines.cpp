@@ -2,8 +2,8 @@
 #include <fmt/format.h>
 
 #include "box.h"
-#include "mesh_field.h"
 #include "mesh_kinds.h"
+#include "mesh_model.h"
 #include "mesh_output.h"
 #include "mesh_report.h"
 #include "terminal.h"
@@ -11,14 +11,6 @@
 namespace frep::cli {
 
 namespace {
-
-/// The plane that the map shows: its two axes in use, the third at 0, where nothing depends on it.
-Plane plane_of(const PreparedModel& prepared) {
-    int unused = 2;
-    for (int axis = 0; axis < 3; ++axis)
-        if (!prepared.map.uses(axis)) unused = axis;
-    return Plane::across(unused, 0);
-}
 
 class OutlineRun {
   public:
@@ -46,13 +38,13 @@ class OutlineRun {
 
   private:
     int add_object(const PreparedModel& prepared) {
-        const auto field = mesh_field(prepared, plan_.iso, false);
+        const auto field = sampled_field(prepared, plan_.iso);
         if (!field) return fail(field.error());
         const auto box = choose_box(prepared, plan_.bounds, **field, job_);
         if (!box) return fail(box.error());
         PlaneContourOptions options;
         options.bounds = *box;
-        options.plane = plane_of(prepared);
+        options.plane = Plane::across(unused_axis(prepared).value_or(2), 0);
         if (plan_.cells) options.cells = *plan_.cells;
         options.cell_length = plan_.cell_length;
         options.cap = plan_.cap;
@@ -80,7 +72,7 @@ class OutlineRun {
             if (!drawing.description.empty()) drawing.description += "; ";
             drawing.description += fmt::format("{}: {}", name, to_valid_utf8(text));
         }
-        if (notes.color.size() == 3) drawing.fill = base_color(models_.front());
+        if (const auto color = annotated_color(models_.front().model)) drawing.fill = *color;
         return drawing;
     }
 

@@ -5,8 +5,8 @@
 #include <fmt/format.h>
 
 #include "box.h"
-#include "mesh_field.h"
 #include "mesh_kinds.h"
+#include "mesh_model.h"
 #include "mesh_output.h"
 #include "mesh_print.h"
 #include "mesh_report.h"
@@ -51,7 +51,7 @@ class SolidRun {
 
     /// Meshes one object into the scene; 0 or an exit code.
     int add_object(const PreparedModel& prepared) {
-        const auto field = mesh_field(prepared, plan_.iso, wants_colors(prepared));
+        const auto field = sampled_field(prepared, plan_.iso, wants_colors(prepared));
         if (!field) return fail(field.error());
         const auto box = choose_box(prepared, plan_.bounds, **field, job_);
         if (!box) return fail(box.error());
@@ -68,8 +68,7 @@ class SolidRun {
         SceneObject object;
         object.name = name_of(prepared);
         if (plan_.material) object.material = *plan_.material;
-        if (!plan_.material || !prepared.model.program().annotations.color.empty())
-            object.material.base = base_color(prepared);
+        if (!plan_.material || annotated_color(prepared.model)) object.material.base = base_color(prepared);
         object.mesh = std::move(result->mesh);
         if (result->attributes.size() >= 3) {
             object.mesh.colors = vertex_colors(*result, object.material.base);

@@ -144,6 +144,29 @@ std::optional<PreparedModel> prepare_model(const ModelOptions& options, int& cod
     return out;
 }
 
+Result<std::unique_ptr<SampledField>> sampled_field(const PreparedModel& prepared, double iso,
+                                                    bool attributes) {
+    EvaluatorOptions options = prepared.evaluator;
+    options.attributes = attributes;
+    auto evaluator = make_evaluator(prepared.field(), options);
+    if (!evaluator) return evaluator.error();
+    return make_sampled_field(std::move(*evaluator), prepared.map, iso);
+}
+
+bool has_colors(const PreparedModel& prepared) { return prepared.field().attributes.size() >= 3; }
+
+std::optional<Color> annotated_color(const Model& model) {
+    const std::vector<double>& color = model.program().annotations.color;
+    if (color.size() != 3) return std::nullopt;
+    return Color{color[0], color[1], color[2]};
+}
+
+std::optional<int> unused_axis(const PreparedModel& prepared) {
+    for (int axis = 2; axis >= 0; --axis)
+        if (!prepared.map.uses(axis)) return axis;
+    return std::nullopt;
+}
+
 std::string coordinate_name(std::size_t index) {
     static constexpr std::string_view names = "xyzt";
     return index < names.size() ? std::string(1, names[index]) : fmt::format("x{}", index + 1);

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -49,6 +50,20 @@ struct PreparedModel {
 
 /// Reads everything and prints the model's findings. Nothing when something is wrong; `code` is then set.
 std::optional<PreparedModel> prepare_model(const ModelOptions& options, int& code);
+
+/// F - iso of the prepared model in space; with `attributes` the object's attributes too, which only
+/// SampledField::attributes() evaluates. Errors: as of make_evaluator and make_sampled_field.
+Result<std::unique_ptr<SampledField>> sampled_field(const PreparedModel& prepared, double iso = 0,
+                                                    bool attributes = false);
+
+/// True when the object has the three attributes s[1..3] that are its color.
+bool has_colors(const PreparedModel& prepared);
+
+/// The model's own color, `--@ color`.
+std::optional<Color> annotated_color(const Model& model);
+
+/// The last axis of space that no coordinate takes: a model with one is flat, across it. Nothing for a solid.
+std::optional<int> unused_axis(const PreparedModel& prepared);
 
 /// Names of a coordinate, first = 0: "x", and "x1".
 std::string coordinate_name(std::size_t index);

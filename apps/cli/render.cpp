@@ -27,11 +27,7 @@ class RenderRun {
 
     int run() {
         take_wishes_of_the_model();
-        EvaluatorOptions evaluation = prepared_.evaluator;
-        evaluation.attributes = plan_.picture.material->uses_attributes;
-        auto evaluator = make_evaluator(prepared_.field(), evaluation);
-        if (!evaluator) return fail(evaluator.error());
-        auto sampled = make_sampled_field(std::move(*evaluator), prepared_.map, plan_.iso);
+        const auto sampled = sampled_field(prepared_, plan_.iso, plan_.picture.material->uses_attributes);
         if (!sampled) return fail(sampled.error());
         SceneOptions options;
         options.quality = plan_.quality;
@@ -53,8 +49,7 @@ class RenderRun {
     void take_wishes_of_the_model() {
         PictureOptions& picture = plan_.picture;
         const auto& notes = prepared_.model.program().annotations;
-        if (!picture.color && notes.color.size() == 3)
-            picture.color = Color{notes.color[0], notes.color[1], notes.color[2]};
+        if (!picture.color) picture.color = annotated_color(prepared_.model);
         if (notes.view.size() == 2) {
             if (!plan_.has_azimuth) picture.view.azimuth = notes.view[0];
             if (!plan_.has_elevation) picture.view.elevation = notes.view[1];
@@ -64,15 +59,15 @@ class RenderRun {
             if (!picture.material)
                 print_warning(fmt::format("--@ material: no material `{}`", notes.material));
         }
-        const bool has_colors = prepared_.field().attributes.size() >= 3;
-        if (!picture.material && has_colors && !options_.base_color) picture.material = find_material("skin");
+        const bool colored = has_colors(prepared_);
+        if (!picture.material && colored && !options_.base_color) picture.material = find_material("skin");
         if (!picture.material) picture.material = &materials().front();
-        if (has_colors && !options_.base_color && !picture.material->uses_attributes) {
+        if (colored && !options_.base_color && !picture.material->uses_attributes) {
             finish_ = *picture.material;  // the model's own colors, with the finish of the material
             finish_.uses_attributes = true;
             picture.material = &finish_;
         }
-        if (picture.material->uses_attributes && !has_colors)
+        if (picture.material->uses_attributes && !colored)
             print_warning("the model has no colors: material `skin` needs three attributes s[1..3]");
     }
 
@@ -141,7 +136,7 @@ int run_render(Arguments arguments) {
     int code = exit_ok;
     const auto prepared = prepare_model(options.model, code);
     if (!prepared) return code;
-    if (is_flat(*prepared)) return render_flat(options, *plan, *prepared);
+    if (unused_axis(*prepared)) return render_flat(options, *plan, *prepared);
     return RenderRun(options, std::move(*plan), *prepared).run();
 }
 

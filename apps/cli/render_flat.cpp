@@ -15,14 +15,6 @@ namespace frep::cli {
 
 namespace {
 
-/// The last free axis is the one across.
-int free_axis(const PreparedModel& prepared) {
-    int axis = 3;
-    for (int i = 0; i < 3; ++i)
-        if (!prepared.map.uses(i)) axis = i;
-    return axis;
-}
-
 /// The option that a plane picture has no use for, if one is given.
 std::string_view useless_option(const RenderOptionTexts& o) {
     if (o.view) return "--view";
@@ -41,13 +33,13 @@ std::string_view useless_option(const RenderOptionTexts& o) {
 }
 
 PlaneRenderOptions picture_options(const RenderPlan& plan, const PreparedModel& prepared, bool flags_color) {
-    const auto& notes = prepared.model.program().annotations;
     PlaneRenderOptions options;
-    options.plane = Plane::across(free_axis(prepared), 0);
+    options.plane = Plane::across(unused_axis(prepared).value_or(2), 0);
     options.width = plan.picture.width;
     options.height = plan.picture.height;
-    if (notes.color.size() == 3) options.color = {notes.color[0], notes.color[1], notes.color[2]};
-    if (plan.picture.color) options.color = *plan.picture.color;
+    const std::optional<Color> color =
+        plan.picture.color ? plan.picture.color : annotated_color(prepared.model);
+    if (color) options.color = *color;
     options.attribute_colors = flags_color;
     if (plan.picture.backdrop == Backdrop::transparent) options.background.reset();
     if (plan.picture.backdrop == Backdrop::plain) options.background = plan.picture.backdrop_color;
@@ -79,8 +71,6 @@ int refuse_thin(const PreparedModel& prepared) {
 
 }  // namespace
 
-bool is_flat(const PreparedModel& prepared) { return free_axis(prepared) < 3; }
-
 int render_flat(const RenderOptionTexts& options, const RenderPlan& plan, const PreparedModel& prepared) {
     const double start = now_seconds();
     int axes = 0;
@@ -90,17 +80,13 @@ int render_flat(const RenderOptionTexts& options, const RenderPlan& plan, const 
         return usage_error(
             prepared.map_given
                 ? fmt::format("{} is for solids; --map makes this object 2-D: it leaves {} out", name,
-                              "xyz"[free_axis(prepared)])
+                              "xyz"[unused_axis(prepared).value_or(2)])
                 : fmt::format("{} is for solids; this object is 2-D", name));
     }
     Job job;
     job.threads = prepared.threads;
-    const bool colored = prepared.field().attributes.size() >= 3 && !options.base_color;
-    EvaluatorOptions evaluation = prepared.evaluator;
-    evaluation.attributes = colored;
-    auto evaluator = make_evaluator(prepared.field(), evaluation);
-    if (!evaluator) return fail(evaluator.error());
-    auto sampled = make_sampled_field(std::move(*evaluator), prepared.map, plan.iso);
+    const bool colored = has_colors(prepared) && !options.base_color;
+    const auto sampled = sampled_field(prepared, plan.iso, colored);
     if (!sampled) return fail(sampled.error());
     const auto box = choose_box(prepared, plan.bounds, **sampled, job);
     if (!box) return fail(box.error());

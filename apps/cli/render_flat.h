@@ -7,10 +7,7 @@
 
 namespace frep::cli {
 
-/// True when no coordinate is mapped to some axis: the model is a shape of the plane.
-bool is_flat(const PreparedModel& prepared);
-
-/// Makes and writes the picture; gives the exit code.
+/// Makes and writes the picture of a model with an unused_axis(); gives the exit code.
 int render_flat(const RenderOptionTexts& options, const RenderPlan& plan, const PreparedModel& prepared);
 
 }  // namespace frep::cli

@@ -39,7 +39,8 @@ struct StatedBounds {
 /// `v` (the cube of half side v), `min,max` (all axes), `ax,bx,ay,by` or `ax,bx,ay,by,az,bz`.
 Result<StatedBounds> parse_bounds(std::string_view text);
 
-/// The pieces of `text` between commas.
+/// The pieces of `text` between commas. They point into `text`, so a string that dies at once is refused.
 std::vector<std::string_view> split_at_commas(std::string_view text);
+std::vector<std::string_view> split_at_commas(std::string&& text) = delete;
 
 }  // namespace frep::cli
