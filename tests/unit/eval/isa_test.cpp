@@ -1,6 +1,6 @@
 #include "frep/eval/isa.h"
 
-#include <doctest.h>
+#include <doctest/doctest.h>
 
 #include <cstring>
 
