@@ -23,7 +23,7 @@ struct Record {
     std::uint16_t first;   ///< boxes where its first choice stands for it: operand 0 (select: 1)
     std::uint16_t second;  ///< boxes where its second choice does: operand 1 (select: 2)
     std::uint16_t base;    ///< boxes where a simpler operation does (a blend at rest: its set operation)
-    std::uint16_t spare;
+    std::uint16_t optional;  ///< 1: boxes may share a tape although these choices differ
 };
 
 /// A pass over a tape. Flags of a row: bit k = box k may be undefined, bit 16 + k = surely is (its bounds then
@@ -38,8 +38,8 @@ struct Job {
     /// Computes the range of clause number `clause` in the boxes of `lanes`, flags included.
     void (*general)(void* self, std::uint32_t clause, unsigned lanes);
     void* self;
-    /// By row: boxes that need it | boxes that need its value << 16. All 0 before the pass from the root down
-    /// but for the root, and after it.
+    /// By row: boxes that need it | boxes that need its value << 16. Before the pass from the root down 0 for
+    /// all values but the root; after it, for all values.
     std::uint32_t* demand;
     Record* records;  ///< room for clause_count of them
 };
