@@ -18,7 +18,7 @@ namespace {
 static_assert(sizeof(Clause) == 24 && offsetof(Clause, op) == 0 && offsetof(Clause, listed) == 1 &&
               offsetof(Clause, count) == 4 && offsetof(Clause, out) == 8 && offsetof(Clause, in) == 12);
 
-/// A cut tape is worth having when it is shorter than its parent by one part in so many.
+/// A cut tape is worth having when one clause in so many of its parent's is gone or became simpler.
 constexpr std::size_t least_saving = 16;
 
 const tile::Kernels& kernels_for(Isa isa) {
@@ -158,18 +158,20 @@ void Pruner::Workspace::emit_groups(Purpose purpose, unsigned lanes, std::size_t
     std::array<std::uint16_t, tile_lanes> same{};
     kernels->agree(records.data(), count, lanes, same.data());
     const std::span<const tile::Record> found(records.data(), count);
-    const std::size_t worth = tape->clauses.size() - tape->clauses.size() / least_saving;
+    const std::size_t before = tape->clauses.size();
     for (unsigned left = lanes; left != 0;) {
         const auto k = static_cast<std::size_t>(__builtin_ctz(left));
         const unsigned group = same[k] & left;
         left &= ~group;
         const auto number = static_cast<std::size_t>(out.tape_count);
         if (out.tapes.size() <= number) out.tapes.resize(number + 1);
-        emit_cut_tape(*tape, found, group, purpose == Purpose::occupancy, emitter, out.tapes[number]);
-        const bool kept = out.tapes[number].clauses.size() <= worth && !tape->clauses.empty();
+        ClauseTape& cut_tape = out.tapes[number];
+        const std::size_t simpler =
+            emit_cut_tape(*tape, found, group, purpose == Purpose::occupancy, emitter, cut_tape);
+        const std::size_t saved = before - cut_tape.clauses.size() + simpler;
+        const bool kept = saved > before / least_saving;
         for (std::size_t i = 0; i < tile_lanes; ++i)
-            if (group >> i & 1u)
-                out.tape_of[i] = kept ? static_cast<std::int8_t>(number) : CutResult::whole;
+            if (group >> i & 1u) out.tape_of[i] = kept ? static_cast<std::int8_t>(number) : CutResult::whole;
         if (kept) ++out.tape_count;
     }
 }

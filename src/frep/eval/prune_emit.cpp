@@ -65,13 +65,16 @@ class Emission {
                 if (op == Op::r_and) op = Op::min;
                 if (op == Op::r_or) op = Op::max;
             }
+            if (op != clause.op && op != Op::neg) ++simpler_;
             row_of_[clause.out] = write(clause, op, base && info(op).arity == 2 ? in.first(2) : in);
         }
     }
 
-    void finish() {
+    /// Returns the number of operations that became simpler ones.
+    std::size_t finish() {
         out_.root = row_of_[tape_.root];
         out_.rows = next_;
+        return simpler_;
     }
 
   private:
@@ -131,16 +134,17 @@ class Emission {
     std::vector<double>& operands_;
     ClauseTape& out_;
     RowNumber next_ = 0;
+    std::size_t simpler_ = 0;
 };
 
 }  // namespace
 
-void emit_cut_tape(const ClauseTape& tape, std::span<const tile::Record> records, unsigned group,
-                   bool set_operations, CutEmitter& emitter, ClauseTape& out) {
+std::size_t emit_cut_tape(const ClauseTape& tape, std::span<const tile::Record> records, unsigned group,
+                          bool set_operations, CutEmitter& emitter, ClauseTape& out) {
     Emission emission(tape, group, set_operations, emitter, out);
     for (std::size_t i = records.size(); i-- > 0;)
         if ((records[i].live & group) != 0) emission.add(records[i]);
-    emission.finish();
+    return emission.finish();
 }
 
 }  // namespace frep
