@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "frep/eval/axis_columns.h"
+#include "frep/eval/clause_tape.h"
 #include "frep/eval/narrowed_field.h"
 
 namespace frep {
