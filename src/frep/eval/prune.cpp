@@ -47,6 +47,21 @@ class Rows {
     std::size_t size_ = 0;
 };
 
+/// Bounds as binary32, outward; as rounded_down() and rounded_up(), without a branch.
+void round_outward(const double* lo, const double* hi, tile::Row& row) {
+    constexpr float largest = std::numeric_limits<float>::max();
+    constexpr float least_number = std::numeric_limits<float>::denorm_min();
+    for (int k = 0; k < tile_lanes; ++k) {
+        const auto low = static_cast<float>(lo[k]), high = static_cast<float>(hi[k]);
+        const float below = low - (__builtin_fabsf(low) * 0x1p-23f + least_number);
+        const float above = high + (__builtin_fabsf(high) * 0x1p-23f + least_number);
+        const float bottom = static_cast<double>(low) > lo[k] ? below : low;
+        const float top = static_cast<double>(high) < hi[k] ? above : high;
+        row.lo[k] = bottom > largest ? largest : bottom;
+        row.hi[k] = top < -largest ? -largest : top;
+    }
+}
+
 }  // namespace
 
 struct Pruner::Workspace {
@@ -96,14 +111,15 @@ void Pruner::Workspace::prepare(const ClauseTape& of) {
 
 void Pruner::Workspace::fill_coordinates(const BoxLanes& boxes) {
     for (int i = 0; i < data->coordinates; ++i) {
-        const RowNumber row = data->coordinate_row(i);
-        flags[row] = 0;
-        for (int k = 0; k < tile_lanes; ++k) {
-            // lanes without a box repeat the first
-            const auto lane = static_cast<std::size_t>(k < boxes.count ? k : 0);
-            const auto axis = static_cast<std::size_t>(i);
-            rows.data()[row].lo[k] = rounded_down(boxes.lo[axis][lane]);
-            rows.data()[row].hi[k] = rounded_up(boxes.hi[axis][lane]);
+        const RowNumber number = data->coordinate_row(i);
+        flags[number] = 0;
+        tile::Row& row = rows.data()[number];
+        const auto axis = static_cast<std::size_t>(i);
+        round_outward(boxes.lo[axis].data(), boxes.hi[axis].data(), row);
+        // lanes without a box repeat the first
+        for (int k = boxes.count; k < tile_lanes; ++k) {
+            row.lo[k] = row.lo[0];
+            row.hi[k] = row.hi[0];
         }
     }
 }

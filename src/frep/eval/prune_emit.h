@@ -13,6 +13,8 @@ namespace frep {
 /// Workspace of emit_cut_tape(), kept between calls.
 struct CutEmitter {
     std::vector<RowNumber> row_of;  ///< by row of the parent: the row in the cut tape
+    RowNumber own_rows = 0;       ///< rows below are constants and coordinates: row_of gives the same number
+    std::vector<Clause> clauses;  ///< room for the longest tape
     std::vector<double> operands;
 };
 

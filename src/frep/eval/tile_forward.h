@@ -4,6 +4,7 @@
 // 0 * inf. What has no form here goes through Job::general. Tested by tests/unit/eval/prune_test.cpp.
 #pragma once
 
+#include "frep/eval/tile_functions.h"
 #include "frep/eval/tile_kernels.h"
 #include "frep/eval/tile_vector.h"
 #include "frep/field/op.h"
@@ -367,7 +368,7 @@ bool arithmetic(const Job& job, Reader clause, Row& r, std::uint32_t& f, unsigne
     }
 }
 
-bool one_operand(Reader clause, const Row& a, Row& r, std::uint32_t& f) {
+bool one_operand(Reader clause, const Row& a, Row& r, std::uint32_t& f, unsigned& bad) {
     switch (clause.op()) {
         case Op::neg:
             negation(a, r);
@@ -384,6 +385,15 @@ bool one_operand(Reader clause, const Row& a, Row& r, std::uint32_t& f) {
             f |= none << 16;
             return true;
         }
+        case Op::exp:
+            exponential(a, r);
+            return true;
+        case Op::sin:
+            bad = wave<0>(a, r);
+            return true;
+        case Op::cos:
+            bad = wave<1>(a, r);
+            return true;
         case Op::floor:
             rounding<Op::floor>(a, r);
             return true;
@@ -424,7 +434,7 @@ void forward(const Job& job) {
                 done = arithmetic(job, clause, r, f, bad);
             } else if (clause.count() == 1) {
                 f = job.flags[clause.in(0)];
-                done = one_operand(clause, job.rows[clause.in(0)], r, f);
+                done = one_operand(clause, job.rows[clause.in(0)], r, f, bad);
             } else if (clause.op() == Op::select) {
                 f = selection(job, clause, r);
                 done = true;

@@ -405,3 +405,43 @@ TEST_CASE("bounds keep the zeros and the signs that are exact") {
     CHECK(low_end(x - 1e-40) < 0);
     CHECK(low_end(x + 1e-40) > 0);
 }
+
+TEST_CASE("exp, sine and cosine of narrow and wide ranges") {
+    Sketch s(true);
+    const auto x = s.x(0);
+    Random random(11);
+    Pruner pruner;
+    RangeLanes r;
+    BoxLanes boxes;
+    boxes.count = tile_lanes;
+    for (const Op op : {Op::exp, Op::sin, Op::cos}) {
+        const auto tape = make_clause_tape(s.field(frep::apply(op, {x})));
+        double widest = 0;
+        for (int round = 0; round < 4000; ++round) {
+            const double size = random.chance(50) ? 0 : std::exp2(random.real(-20, 3));
+            const double reach = std::exp2(random.real(-30, op == Op::exp ? 6.6 : 13));
+            for (std::size_t i = 0; i < 3; ++i) {
+                for (std::size_t k = 0; k < tile_lanes; ++k) {
+                    boxes.lo[i][k] = static_cast<double>(static_cast<float>(random.real(-reach, reach)));
+                    boxes.hi[i][k] = boxes.lo[i][k] + size;
+                }
+            }
+            pruner.ranges(*tape, boxes, r);
+            for (std::size_t k = 0; k < tile_lanes; ++k) {
+                for (int i = 0; i < 3; ++i) {
+                    const double at =
+                        i == 0 ? boxes.lo[0][k] : std::min(boxes.hi[0][k], boxes.lo[0][k] + size * i / 2);
+                    const std::array<double, 1> in{at};
+                    const double value = meaning<double>(op, in, {});
+                    const double places = value > 1e-37 || value < -1e-37 ? 0x1p-22 * std::fabs(value) : 0;
+                    CHECK(static_cast<double>(r.lo[k]) <= value - places);
+                    CHECK(static_cast<double>(r.hi[k]) >= value + places);
+                    if (size == 0 && op != Op::exp)
+                        widest =
+                            std::max(widest, static_cast<double>(r.hi[k]) - static_cast<double>(r.lo[k]));
+                }
+            }
+        }
+        CHECK(widest < 3e-6);
+    }
+}
