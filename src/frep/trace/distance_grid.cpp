@@ -127,6 +127,9 @@ void DistanceGrid::place(const Box3& hull, int cells) {
         const int count = static_cast<int>(__builtin_ceil(sides[a] / step_ - 1e-6)) + 2 * margin;
         cells_[a] = (count + block - 1) / block * block;
     }
+    per_unit_ = 1 / step_;
+    // The last place before the last corner, so that there is always a next one.
+    for (std::size_t a = 0; a < 3; ++a) far_[a] = static_cast<float>(cells_[a]) * (1 - 0x1p-22F);
     const Vec3 middle = (hull.min + hull.max) * 0.5;
     origin_ = middle - Vec3{cells_[0] * 0.5, cells_[1] * 0.5, cells_[2] * 0.5} * step_;
     states_.assign(size(0) * size(1) * size(2), CellState::outside);
@@ -359,23 +362,26 @@ void DistanceGrid::spread(const std::vector<std::uint8_t>& band, const Job& job)
 }
 
 double DistanceGrid::distance(Vec3 p) const {
-    const double u = (p.x - origin_.x) / step_, v = (p.y - origin_.y) / step_, w = (p.z - origin_.z) / step_;
-    const double cu = std::clamp(u, 0.0, cells_[0] - 1e-9), cv = std::clamp(v, 0.0, cells_[1] - 1e-9),
-                 cw = std::clamp(w, 0.0, cells_[2] - 1e-9);
+    const auto u = static_cast<float>((p.x - origin_.x) * per_unit_),
+               v = static_cast<float>((p.y - origin_.y) * per_unit_),
+               w = static_cast<float>((p.z - origin_.z) * per_unit_);
+    const float cu = std::clamp(u, 0.0F, far_[0]), cv = std::clamp(v, 0.0F, far_[1]),
+                cw = std::clamp(w, 0.0F, far_[2]);
     const int i = static_cast<int>(cu), j = static_cast<int>(cv), k = static_cast<int>(cw);
-    const auto a = static_cast<float>(cu - i), b = static_cast<float>(cv - j), c = static_cast<float>(cw - k);
+    const float a = cu - static_cast<float>(i), b = cv - static_cast<float>(j),
+                c = cw - static_cast<float>(k);
     const std::size_t sy = corners(0), sz = corners(0) * corners(1);
     const float* d = distance_.data() + static_cast<std::size_t>(k) * sz + static_cast<std::size_t>(j) * sy +
                      static_cast<std::size_t>(i);
     const float d00 = d[0] + a * (d[1] - d[0]), d10 = d[sy] + a * (d[sy + 1] - d[sy]);
     const float d01 = d[sz] + a * (d[sz + 1] - d[sz]), d11 = d[sz + sy] + a * (d[sz + sy + 1] - d[sz + sy]);
     const float d0 = d00 + b * (d10 - d00), d1 = d01 + b * (d11 - d01);
-    const double inner = d0 + c * (d1 - d0);
-    const double du = u - cu, dv = v - cv, dw = w - cw;
-    const double beyond = du * du + dv * dv + dw * dw;
+    const float inner = d0 + c * (d1 - d0);
+    const float du = u - cu, dv = v - cv, dw = w - cw;
+    const float beyond = du * du + dv * dv + dw * dw;
     // The nearest point of the convex lattice is nearer to everything in it than p is.
-    if (beyond > 1e-12) return __builtin_sqrt(beyond + inner * inner) * step_;
-    return inner * step_;
+    if (beyond > 1e-6F) return double{__builtin_sqrtf(beyond + inner * inner)} * step_;
+    return double{inner} * step_;
 }
 
 Vec3 DistanceGrid::direction(Vec3 p) const {

@@ -83,7 +83,8 @@ class DistanceGrid {
 
     Box3 clip_;
     Vec3 origin_;
-    double step_ = 0;
+    double step_ = 0, per_unit_ = 0;  ///< side of a cell, cells in a model unit
+    std::array<float, 3> far_{};      ///< greatest place of a look-up, in cells
     std::array<int, 3> cells_{};
     bool sampled_ = false;
     std::vector<CellState> states_;

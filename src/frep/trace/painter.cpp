@@ -12,6 +12,7 @@ namespace frep::tracing {
 namespace {
 
 constexpr int tile = 32;            ///< pixels a side
+constexpr int ground_square = 2;    ///< pixels
 constexpr double thinnest = 0.125;  ///< pixels: a ray misses less of the solid than that
 constexpr std::size_t edge_pixels_a_task = 64;
 
@@ -130,6 +131,9 @@ Painter::Painter(const DistanceGrid& grid, FieldPool& fields, const SceneOptions
 Result<Image> Painter::paint(const Job& job) {
     const auto width = static_cast<std::size_t>(options_.width);
     samples_.resize(width * static_cast<std::size_t>(options_.height));
+    const auto squares = [](int pixels) { return static_cast<std::size_t>(pixels / ground_square + 2); };
+    ground_ = std::vector<std::atomic<float>>(squares(options_.width) * squares(options_.height));
+    for (std::atomic<float>& light : ground_) light.store(-1, std::memory_order_relaxed);
     const int across = (options_.width + tile - 1) / tile, down = (options_.height + tile - 1) / tile;
     parallel_for(job, static_cast<std::size_t>(across * down), [&](std::size_t task) {
         const int x0 = static_cast<int>(task) % across * tile, y0 = static_cast<int>(task) / across * tile;
@@ -241,21 +245,52 @@ Rgb Painter::backdrop_light(Vec2 place) const {
     return paper * (1.05 - 0.42 * corner);
 }
 
+/// Where a ray meets the table; nothing where it does not, or far from the object.
+std::optional<Vec3> Painter::on_ground(const Ray& ray) const {
+    if (!stage_.ground.is_there || ray.direction.z > -1e-6 || ray.origin.z <= stage_.ground.height) return {};
+    const Vec3 p = at(ray, (stage_.ground.height - ray.origin.z) / ray.direction.z);
+    if (grid_.distance(p) > 3 * stage_.size) return {};
+    return p;
+}
+
+/// The light that the object leaves on the table at a point of the picture. It changes slowly: it is found at
+/// the corners of squares of two pixels, each when it is first needed, and interpolated.
+double Painter::ground_light(Vec2 place) const {
+    const auto across = static_cast<std::size_t>(options_.width / ground_square + 2);
+    // tiles reach beyond the picture
+    const double u = std::min(place.x, options_.width * 1.0) / ground_square,
+                 v = std::min(place.y, options_.height * 1.0) / ground_square;
+    const auto i = static_cast<std::size_t>(u), j = static_cast<std::size_t>(v);
+    std::array<double, 4> corner{};
+    for (std::size_t c = 0; c < 4; ++c) {
+        const std::size_t x = i + (c & 1), y = j + (c >> 1);
+        std::atomic<float>& light = ground_[y * across + x];
+        float known = light.load(std::memory_order_relaxed);
+        if (known < 0) {
+            const auto p = on_ground(
+                camera_.ray(static_cast<double>(x) * ground_square, static_cast<double>(y) * ground_square));
+            known = p ? static_cast<float>(shader_.ground_light(*p)) : 1.0F;
+            light.store(known, std::memory_order_relaxed);  // the same from every thread
+        }
+        corner[c] = double{known};
+    }
+    const double a = u - static_cast<double>(i), b = v - static_cast<double>(j);
+    return mix(mix(corner[0], corner[1], a), mix(corner[2], corner[3], a), b);
+}
+
 void Painter::backdrop(const Ray& ray, Vec2 place, Sample& sample) const {
     const bool transparent = options_.backdrop == Backdrop::transparent;
     sample.light = transparent ? Rgb{} : backdrop_light(place);
     sample.alpha = transparent ? 0 : 1;
-    if (!stage_.ground.is_there || ray.direction.z > -1e-6 || ray.origin.z <= stage_.ground.height) return;
-    const double t = (stage_.ground.height - ray.origin.z) / ray.direction.z;
-    const Vec3 p = ray.origin + ray.direction * t;
-    if (grid_.distance(p) > 3 * stage_.size) return;
-    const double light = shader_.ground_light(p);
+    const auto p = on_ground(ray);
+    if (!p) return;
+    const double light = ground_light(place);
     if (transparent) {
         sample.alpha = 1 - light;
         return;
     }
     sample.light = sample.light * light;
-    const Shader::Reflection mirror = shader_.ground_reflection(p, ray.direction);
+    const Shader::Reflection mirror = shader_.ground_reflection(*p, ray.direction);
     if (mirror.strength > 0) sample.light = mix(sample.light, film(mirror.color), mirror.strength);
 }
 
