@@ -49,6 +49,7 @@ class NarrowedField final : public SampledField {
         narrowing_->ranges(tape_, boxes, out);
     }
 
+    bool can_narrow() const override { return true; }
     void narrow(std::span<const Box3> boxes, std::span<SignRange> out,
                 std::span<std::shared_ptr<SampledField>> parts) override {
         Narrowing::narrow(narrowing_, tape_, boxes, out, parts);
@@ -82,6 +83,16 @@ SignRange signs_of(const RangeLanes& ranges, unsigned lane) {
 }
 
 }  // namespace
+
+bool has_dear_ranges(const ClauseTape& tape) {
+    constexpr double most = 2000;  // additions' worth
+    ClauseTape sums;
+    sums.data = tape.data;
+    sums.operands = tape.operands;
+    for (const Clause& clause : tape.clauses)
+        if (info(clause.op).kind == OpKind::block) sums.clauses.push_back(clause);
+    return cost_of(sums) > most;
+}
 
 Narrowing::Narrowing(AxisMap map) : engines_(std::make_unique<Engines>(std::move(map))) {}
 Narrowing::~Narrowing() = default;

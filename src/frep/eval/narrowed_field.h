@@ -10,6 +10,10 @@
 
 namespace frep {
 
+/// True where ranges cost much more than values do, so that looking at samples finds a surface sooner than
+/// proofs do: sums over hundreds of skeletons or samples, whose ranges are found term by term.
+bool has_dear_ranges(const ClauseTape& tape);
+
 /// Engines and workspace that a field and all its parts share: they serve one thread.
 class Narrowing {
   public:

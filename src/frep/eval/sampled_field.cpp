@@ -68,6 +68,10 @@ class MappedField final : public SampledField {
         }
     }
 
+    bool can_narrow() const override {
+        return evaluator_->clauses() && !has_dear_ranges(*evaluator_->clauses());
+    }
+
     void narrow(std::span<const Box3> boxes, std::span<SignRange> out,
                 std::span<std::shared_ptr<SampledField>> parts) override {
         if (!narrowing_ && evaluator_->clauses()) {

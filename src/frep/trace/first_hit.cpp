@@ -20,7 +20,7 @@ void FirstHit::trace(std::span<const Ray> rays, std::span<Hit> hits) {
     std::fill(hits.begin(), hits.end(), Hit{});
     if (!grid_.has_solid()) return;
     find_reaches(rays);
-    if (grid_.sampled())
+    if (grid_.sampled() || !field_.can_narrow())
         sample(rays, hits);
     else
         search_.search(rays, reaches_, hits);
