@@ -81,6 +81,7 @@ constexpr bool has_loop(Op op, int arity, int cost) {
         case Op::log:
         case Op::sin:
         case Op::cos:
+            return true;
         case Op::log10:
         case Op::tan:
         case Op::asin:
