@@ -13,8 +13,9 @@
 namespace frep {
 namespace {
 
-/// Bytes of a batch that shall lie in the first cache, and the points of one.
-constexpr std::size_t cache_bytes = 24 << 10;
+/// Bytes of the rows of a batch, which shall lie in the second cache, and the points of one. (A batch in the
+/// first cache is worth less than fewer batches: a clause costs as much as some ten registers of points.)
+constexpr std::size_t cache_bytes = 192 << 10;
 constexpr std::size_t least_points = 32, most_points = 512;
 
 template <class Real>
