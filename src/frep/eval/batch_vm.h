@@ -26,7 +26,8 @@ class BatchVm {
     BatchVm(BatchVm&&) noexcept;
     BatchVm& operator=(BatchVm&&) noexcept;
 
-    /// F at `count` points: coordinates[i][p] is coordinate i of point p (all that the tape's data name);
+    /// F at `count` points: coordinates[i][p] is coordinate i of point p (those that the tape
+    /// does not read may be null);
     /// out[p] receives F, NaN where undefined. `out` may not overlap the coordinates. Tapes are taken as they
     /// are, in single assignment or packed; long ones should be packed (pack_rows), for the rows of a batch
     /// to lie in the cache.
