@@ -85,7 +85,7 @@ struct LaneWordsOf {
     /// True where the lowest bit is set.
     friend LaneMaskOf<E, N> mask_of_low_bit(LaneWordsOf a) {
         using Truth = typename LaneMaskOf<E, N>::Items;
-        return {each<Truth>([](auto x) { return -(x & Word{1}); }, a.items)};
+        return {each<Truth>([](auto x) { return (x & Word{1}) == Word{1}; }, a.items)};
     }
 };
 
@@ -107,13 +107,9 @@ struct LanesOf {
     /// N copies of a value.
     static LanesOf broadcast(double all) { return LanesOf(all); }
     /// Reads N numbers from memory (any alignment).
-    static LanesOf load(const E* from) {
-        LanesOf r;
-        __builtin_memcpy(&r.items, from, sizeof(Items));
-        return r;
-    }
+    static LanesOf load(const E* from) { return LanesOf(Items::load(from)); }
     /// Writes N numbers to memory (any alignment).
-    void store(E* to) const { __builtin_memcpy(to, &items, sizeof(Items)); }
+    void store(E* to) const { items.store(to); }
     /// The value of lane i.
     E operator[](int i) const { return items.get(i); }
     /// Sets lane i.
