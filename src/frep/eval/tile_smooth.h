@@ -27,7 +27,7 @@ enum Stage : std::uint16_t {
 struct Smooth {
     int sharp = 0, soft = 1;     ///< operands of the sum
     std::uint32_t a = 0, b = 0;  ///< rows
-    float k = 0;
+    float k = 0, factor = 0;
     bool sharp_is_operand = false;  ///< max(a, b) is a or b already
 };
 
@@ -64,6 +64,7 @@ bool follow_chain(const Walk& sum, int k, Smooth& s) {
     if (!(s.k > 0 && s.k < endless && slope <= 0.4999f)) return false;
     if (!clause_of(w, w.row(1), w) || w.clause.op() != Op::abs) return false;
     if (!clause_of(w, w.row(0), w) || w.clause.op() != Op::sub) return false;
+    s.factor = over ? 1 / factor : factor;
     s.a = w.row(0);
     s.b = w.row(1);
     return true;
@@ -79,6 +80,51 @@ bool is_sharp(const Walk& sum, int k, Op op, Smooth& s) {
     return (w.row(0) == s.a && w.row(1) == s.b) || (w.row(0) == s.b && w.row(1) == s.a);
 }
 
+/// Finds out whether the sum w is a smooth set operation.
+bool find_smooth(const Walk& w, bool minus, Smooth& s) {
+    const Op op = minus ? Op::min : Op::max;
+    if (follow_chain(w, 1, s) && is_sharp(w, 0, op, s)) return true;
+    if (minus) return false;
+    s.sharp = 1;
+    s.soft = 0;
+    return follow_chain(w, 0, s) && is_sharp(w, 1, op, s);
+}
+
+/// True for square(max(u, v)), without which there is no smooth set operation.
+bool is_square_of_maximum(const Walk& w) {
+    Walk operand = w;
+    return clause_of(w, w.row(0), operand) && operand.clause.op() == Op::max;
+}
+
+/// max(a, b) + factor max(k - |a - b|, 0)^2, or the mirror image; increases in both.
+template <bool minus>
+V smooth_at(V a, V b, float k, float factor) {
+    const V u = most(all(k) - magnitude(a - b), all(0.0f)), soft = u * u * all(factor);
+    return minus ? least(a, b) - soft : most(a, b) + soft;
+}
+template <bool minus>
+void cut_to_corners(const Row& a, const Row& b, const Smooth& s, Row& r) {
+    // more than the rounding of the terms, in binary32 too
+    const V slack = all(16 * place * s.k);
+    for (int c = 0; c < 16; c += width) {
+        const V p = smooth_at<minus>(load(a.lo + c), load(b.lo + c), s.k, s.factor);
+        const V q = smooth_at<minus>(load(a.hi + c), load(b.hi + c), s.k, s.factor);
+        const V lo = p - magnitude(p) * (16 * place) - slack, hi = q + magnitude(q) * (16 * place) + slack;
+        // NaN, from infinite bounds, leaves what is there
+        put(r, c, most(lo, load(r.lo + c)), least(hi, load(r.hi + c)));
+    }
+}
+/// Cuts the range of a sum that is a smooth set operation to its range at the corners.
+void smooth_range(const Walk& w, bool minus, Row& r) {
+    Smooth s;
+    if (!find_smooth(w, minus, s)) return;
+    const Row &a = w.job.rows[s.a], &b = w.job.rows[s.b];
+    if (minus)
+        cut_to_corners<true>(a, b, s, r);
+    else
+        cut_to_corners<false>(a, b, s, r);
+}
+
 inline void ask_inner(const Walk& w, int k, unsigned boxes, float margin, Stage stage) {
     Wanted& wanted = w.job.wanted[w.row(k)];
     wanted.inner |= static_cast<std::uint16_t>(boxes);
@@ -90,14 +136,7 @@ inline void ask_inner(const Walk& w, int k, unsigned boxes, float margin, Stage 
 /// Demands of a sum that is a smooth set operation; false where it is none.
 bool smooth_demand(const Walk& w, Demand d, bool minus, Record& r) {
     Smooth s;
-    const Op op = minus ? Op::min : Op::max;
-    bool found = follow_chain(w, 1, s) && is_sharp(w, 0, op, s);
-    if (!found && !minus) {
-        s.sharp = 1;
-        s.soft = 0;
-        found = follow_chain(w, 0, s) && is_sharp(w, 1, op, s);
-    }
-    if (!found) return false;
+    if (!find_smooth(w, minus, s)) return false;
     const float margin = widened(d.margin + s.k);
     const Row &a = w.job.rows[s.a], &b = w.job.rows[s.b];
     const unsigned far_a = minus ? Walk::above(a, margin) : Walk::below(a, -margin);

@@ -2,7 +2,7 @@
 // (tile_reverse.h). Included by tile_smooth.h alone. Tested by tests/unit/eval/prune_test.cpp.
 #pragma once
 
-#include "frep/eval/tile_forward.h"
+#include "frep/eval/tile_ranges.h"
 
 namespace frep::tile {
 namespace {
