@@ -23,7 +23,10 @@ void choose(const Walk& w, Demand d, unsigned without_0, unsigned without_1, Rec
 /// Set operations. R-functions choose by signs only, and only where the sign is enough.
 template <bool united, bool rounded>
 void set_operation(const Walk& w, Demand d, Record& r) {
-    if (rounded && d.margin > 0) d = d.as_value();
+    if (rounded && d.margin > 0) {
+        d = d.as_value();
+        r.value |= static_cast<std::uint16_t>(d.live);
+    }
     unsigned without_0 = 0, without_1 = 0;
     if (!rounded) {
         without_0 = united ? w.ordered(0, 1) : w.ordered(1, 0);
