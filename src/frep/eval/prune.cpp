@@ -177,23 +177,24 @@ std::size_t Pruner::Workspace::run_reverse(unsigned lanes, bool value) {
 
 void Pruner::Workspace::emit_groups(Purpose purpose, unsigned lanes, std::size_t count, CutResult& out) {
     std::array<std::uint16_t, tile_lanes> same{};
-    kernels->agree(records.data(), count, lanes, same.data());
+    std::array<std::uint32_t, tile_lanes> estimate{};
+    const bool set_operations = purpose == Purpose::occupancy;
+    kernels->agree(records.data(), count, lanes, set_operations, same.data(), estimate.data());
     const std::span<const tile::Record> found(records.data(), count);
-    const std::size_t before = tape->clauses.size();
-    for (unsigned left = lanes; left != 0;) {
-        const auto k = static_cast<std::size_t>(__builtin_ctz(left));
-        const unsigned group = same[k] & left;
-        left &= ~group;
-        const auto number = static_cast<std::size_t>(out.tape_count);
-        if (out.tapes.size() <= number) out.tapes.resize(number + 1);
-        ClauseTape& cut_tape = out.tapes[number];
-        const std::size_t simpler =
-            emit_cut_tape(*tape, found, group, purpose == Purpose::occupancy, emitter, cut_tape);
-        const std::size_t saved = before - cut_tape.clauses.size() + simpler;
-        const bool kept = saved > before / least_saving;
+    const std::size_t before = tape->clauses.size(), worth = before - before / least_saving;
+    for (unsigned rest = lanes; rest != 0;) {
+        const auto k = static_cast<std::size_t>(__builtin_ctz(rest));
+        const unsigned group = same[k] & rest;
+        rest &= ~group;
+        std::int8_t number = CutResult::whole;
+        if (estimate[k] < worth) {
+            const auto next = static_cast<std::size_t>(out.tape_count);
+            if (out.tapes.size() <= next) out.tapes.resize(next + 1);
+            emit_cut_tape(*tape, found, group, set_operations, emitter, out.tapes[next]);
+            number = static_cast<std::int8_t>(out.tape_count++);
+        }
         for (std::size_t i = 0; i < tile_lanes; ++i)
-            if (group >> i & 1u) out.tape_of[i] = kept ? static_cast<std::int8_t>(number) : CutResult::whole;
-        if (kept) ++out.tape_count;
+            if (group >> i & 1u) out.tape_of[i] = number;
     }
 }
 

@@ -18,13 +18,17 @@ struct alignas(64) Row {
 /// What the pass from the root down found out about a clause that some box needs. Masks of boxes.
 struct Record {
     std::uint32_t clause;
-    std::uint16_t live;      ///< boxes that need the clause
-    std::uint16_t value;     ///< those that need its value, not only its sign
-    std::uint16_t first;     ///< boxes where its first choice stands for it: operand 0 (select: 1)
-    std::uint16_t second;    ///< boxes where its second choice does: operand 1 (select: 2)
-    std::uint16_t base;      ///< boxes where a simpler operation does (a blend at rest: its set operation)
-    std::uint16_t optional;  ///< 1: boxes may share a tape although these choices differ
+    std::uint16_t live;    ///< boxes that need the clause
+    std::uint16_t value;   ///< those that need its value, not only its sign
+    std::uint16_t first;   ///< boxes where its first choice stands for it: operand 0 (select: 1)
+    std::uint16_t second;  ///< boxes where its second choice does: operand 1 (select: 2)
+    std::uint16_t base;    ///< boxes where a simpler operation does (a blend at rest: its set operation)
+    std::uint16_t notes;   ///< sums of the following
 };
+/// Boxes may share a tape although these choices differ.
+inline constexpr std::uint16_t optional_choice = 1;
+/// The clause is, or becomes, an R-function.
+inline constexpr std::uint16_t r_function_note = 2;
 
 /// What the users of a row want of it, while the pass from the root down goes. Masks of boxes.
 struct Wanted {
@@ -62,8 +66,10 @@ struct Kernels {
     /// Demands from the root down; writes the records of the clauses that are needed, last clause first, and
     /// returns their number.
     std::size_t (*reverse)(const Job&);
-    /// same[k] = the boxes of `lanes` whose choices are those of box k.
-    void (*agree)(const Record* records, std::size_t count, unsigned lanes, std::uint16_t* same);
+    /// same[k] = the boxes of `lanes` whose choices are those of box k; left[k] = the clauses that box k
+    /// needs and that do not become simpler, where R-functions become min and max if `set_operations`.
+    void (*agree)(const Record* records, std::size_t count, unsigned lanes, bool set_operations,
+                  std::uint16_t* same, std::uint32_t* left);
 };
 
 namespace sse2 {

@@ -27,6 +27,7 @@ void set_operation(const Walk& w, Demand d, Record& r) {
         d = d.as_value();
         r.value |= static_cast<std::uint16_t>(d.live);
     }
+    if (rounded) r.notes |= r_function_note;
     unsigned without_0 = 0, without_1 = 0;
     if (!rounded) {
         without_0 = united ? w.ordered(0, 1) : w.ordered(1, 0);
@@ -120,7 +121,7 @@ void sum_demand(const Walk& w, Demand d, bool minus, Record& r) {
 void absolute_demand(const Walk& w, Demand d, Record& r) {
     r.first = static_cast<std::uint16_t>(d.live & w.positive(0));
     r.base = static_cast<std::uint16_t>(d.live & w.negative(0));
-    r.optional = 1;
+    r.notes |= optional_choice;
     w.ask(0, d);
 }
 
@@ -215,10 +216,19 @@ std::size_t reverse(const Job& job) {
     return static_cast<std::size_t>(next - job.records);
 }
 
-/// Boxes of `lanes` whose choices agree with those of box k.
-void agree(const Record* records, std::size_t count, unsigned lanes, std::uint16_t* same_as) {
-    typedef std::uint16_t Masks __attribute__((vector_size(32), may_alias));
-    Masks together = Masks{} + static_cast<std::uint16_t>(lanes), bit{};
+typedef std::uint16_t Masks __attribute__((vector_size(32), may_alias));
+typedef std::uint32_t Counts __attribute__((vector_size(64), may_alias));
+
+/// Adds counts that are kept as negative numbers, and clears them.
+inline void collect(Masks& counts, Counts& sum) {
+    for (int k = 0; k < 16; ++k) sum[k] += static_cast<std::uint16_t>(-counts[k]);
+    counts = Masks{};
+}
+
+void agree(const Record* records, std::size_t count, unsigned lanes, bool set_operations,
+           std::uint16_t* same_as, std::uint32_t* left) {
+    Masks together = Masks{} + static_cast<std::uint16_t>(lanes), bit{}, counts{};
+    Counts sum{};
     for (int k = 0; k < 16; ++k) bit[k] = static_cast<std::uint16_t>(1u << k);
     const auto refine = [&](std::uint16_t m) {
         const Masks mask = Masks{} + m;
@@ -227,12 +237,19 @@ void agree(const Record* records, std::size_t count, unsigned lanes, std::uint16
     };
     for (std::size_t i = 0; i < count; ++i) {
         const Record& r = records[i];
-        if (r.optional != 0) continue;
+        unsigned gone = r.first | r.second | r.base;
+        if (set_operations && (r.notes & r_function_note) != 0) gone |= ~unsigned{r.value};
+        const Masks needed = Masks{} + static_cast<std::uint16_t>(r.live & ~gone);
+        counts += (Masks)((needed & bit) != 0);
+        if (i % 0x8000 == 0x7fff) collect(counts, sum);
+        if ((r.notes & optional_choice) != 0) continue;
         if ((r.first & lanes) != 0 && (r.first & lanes) != lanes) refine(r.first);
         if ((r.second & lanes) != 0 && (r.second & lanes) != lanes) refine(r.second);
         if ((r.base & lanes) != 0 && (r.base & lanes) != lanes) refine(r.base);
     }
+    collect(counts, sum);
     __builtin_memcpy(same_as, &together, sizeof together);
+    __builtin_memcpy(left, &sum, sizeof sum);
 }
 
 }  // namespace
