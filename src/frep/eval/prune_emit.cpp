@@ -65,23 +65,19 @@ class Emission {
             if (op == Op::r_and) op = Op::min;
             if (op == Op::r_or) op = Op::max;
         }
-        if (op != clause.op && op != Op::neg) ++simpler_;
-        const std::span<const RowNumber> in = tape_.operands_of(clause);
-        if (clause.listed != 0 && op == clause.op)
-            row_of_[clause.out] = write_listed(clause, in);
-        else if (clause.listed != 0)
-            row_of_[clause.out] = write(op, 2, in[0], in[1], 0);
-        else
+        if (clause.listed == 0) {
             row_of_[clause.out] = write(op, clause.count, clause.in[0], clause.in[1], clause.in[2]);
+            return;
+        }
+        const std::span<const RowNumber> in = tape_.operands_of(clause);
+        row_of_[clause.out] = op == clause.op ? write_listed(clause, in) : write(op, 2, in[0], in[1], 0);
     }
 
-    /// Returns the number of operations that became simpler ones.
-    std::size_t finish() {
+    void finish() {
         if (out_.data != tape_.data) out_.data = tape_.data;
         out_.clauses.assign(clauses_, next_);
         out_.root = row_of_[tape_.root];
         out_.rows = first_ + static_cast<RowNumber>(next_ - clauses_);
-        return simpler_;
     }
 
   private:
@@ -89,9 +85,10 @@ class Emission {
         return row < constants_ && math::to_bits(tape_.data->constants[row]) == math::to_bits(value);
     }
 
-    /// The row that has the clause's value already, bit for bit, where an operand is a constant.
+    /// The row that has the clause's value already, bit for bit.
     std::optional<RowNumber> known(Op op, std::uint32_t count, RowNumber a, RowNumber b) {
         if (count == 2) {
+            if (a == b && (op == Op::min || op == Op::max)) return a;
             if (op == Op::sub && is(b, 0.0)) return a;
             if (op == Op::add && is(b, -0.0)) return a;
             if (op == Op::add && is(a, -0.0)) return b;
@@ -108,21 +105,27 @@ class Emission {
         return std::nullopt;
     }
 
+    /// True where an operand has become a constant (or the same as the other one).
+    bool has_news(std::uint32_t count, RowNumber x, RowNumber y, RowNumber a, RowNumber b) const {
+        return (a < constants_ && x >= constants_) ||
+               (count > 1 && ((b < constants_ && y >= constants_) || a == b));
+    }
+
     /// Writes the operation on rows of the parent; the row of its value.
     RowNumber write(Op op, std::uint32_t count, RowNumber x, RowNumber y, RowNumber z) {
-        const RowNumber a = row_of_[x], b = count > 1 ? row_of_[y] : 0, c = count > 2 ? row_of_[z] : 0;
-        if (a == b && count == 2 && (op == Op::min || op == Op::max)) return a;
-        if (a < constants_ || (count > 1 && b < constants_))
+        const RowNumber a = row_of_[x], b = row_of_[y];
+        if (has_news(count, x, y, a, b))
             if (const auto row = known(op, count, a, b)) return *row;
         Clause& clause = *next_;
+        const RowNumber out = first_ + static_cast<RowNumber>(next_ - clauses_);
         clause.op = op;
         clause.listed = 0;
         clause.spare = 0;
         clause.count = count;
-        clause.out = first_ + static_cast<RowNumber>(next_ - clauses_);
-        clause.in = {a, b, c};
+        clause.out = out;
+        clause.in = {a, count > 1 ? b : 0, count > 2 ? row_of_[z] : 0};
         ++next_;
-        return clause.out;
+        return out;
     }
 
     RowNumber write_listed(const Clause& from, std::span<const RowNumber> in) {
@@ -145,17 +148,16 @@ class Emission {
     RowNumber* row_of_ = nullptr;
     Clause* clauses_ = nullptr;
     Clause* next_ = nullptr;
-    std::size_t simpler_ = 0;
 };
 
 }  // namespace
 
-std::size_t emit_cut_tape(const ClauseTape& tape, std::span<const tile::Record> records, unsigned group,
-                          bool set_operations, CutEmitter& emitter, ClauseTape& out) {
+void emit_cut_tape(const ClauseTape& tape, std::span<const tile::Record> records, unsigned group,
+                   bool set_operations, CutEmitter& emitter, ClauseTape& out) {
     Emission emission(tape, group, set_operations, emitter, out);
     for (std::size_t i = records.size(); i-- > 0;)
         if ((records[i].live & group) != 0) emission.add(records[i]);
-    return emission.finish();
+    emission.finish();
 }
 
 }  // namespace frep

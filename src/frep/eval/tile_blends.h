@@ -5,7 +5,7 @@
 // tests/unit/eval/prune_test.cpp.
 #pragma once
 
-#include "frep/eval/tile_clause.h"
+#include "frep/eval/tile_ranges.h"
 
 namespace frep::tile {
 namespace {

@@ -1,5 +1,5 @@
-// What the parts of the pruner's forward pass have in common: how a clause is read, how bounds step outward,
-// and the R-conjunction in binary32. Tested by tests/unit/eval/prune_test.cpp.
+// Clauses as the passes of the pruner read them, and the numbers that the passes share. Included by
+// tile_ranges.h and tile_walk.h. Tested by tests/unit/eval/prune_test.cpp.
 #pragma once
 
 #include "frep/eval/tile_kernels.h"
@@ -36,23 +36,5 @@ struct Reader {
 };
 constexpr std::size_t clause_bytes = 24;
 
-inline V lower(V x, float by) { return least(x, all(largest)) - magnitude(least(x, all(largest))) * by; }
-inline V upper(V x, float by) { return most(x, all(-largest)) + magnitude(most(x, all(-largest))) * by; }
-inline void put(Row& r, int c, V lo, V hi) {
-    store(r.lo + c, lo);
-    store(r.hi + c, hi);
-}
-
-/// r_and(a, b) = lo * 2 hi/(lo + hi + s) where hi > -lo, else lo + hi - s, with s = hypot(lo, hi).
-inline V conjunction(V a, V b) {
-    const V lo = least(a, b), hi = most(a, b);
-    const V s = root(lo * lo + hi * hi);
-    return pick(less(-lo, hi), lo * ((hi + hi) / (lo + hi + s)), lo + hi - s);
-}
-/// True for pairs whose larger magnitude is ordinary.
-inline M ordinary(V a, V b) {
-    const V far = most(magnitude(a), magnitude(b));
-    return less(all(ordinary_low), far) & less(far, all(ordinary_high));
-}
 }  // namespace
 }  // namespace frep::tile
