@@ -1,0 +1,207 @@
+// Implementation of native_code.h: compiling, and runs over columns of points.
+#include "frep/eval/native_code.h"
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <mutex>
+#include <vector>
+
+#include "frep/base/result.h"
+#include "frep/eval/float_control.h"
+#include "frep/eval/native_memory.h"
+#include "frep/eval/native_translate.h"
+#include "frep/eval/native_writer.h"
+
+namespace frep {
+
+using native::NativeFunction;
+
+namespace {
+
+constexpr std::size_t vector_bytes_of(Isa isa) { return isa == Isa::avx512 ? 64 : 32; }
+
+/// Scratch memory of a run, aligned to the vectors. Small ones stand on the stack.
+class Workspace {
+  public:
+    explicit Workspace(std::size_t bytes) {
+        void* at = local_.data();
+        std::size_t space = sizeof(local_);
+        if (bytes + 64 > sizeof(local_)) {
+            space = bytes + 64;
+            heap_ = std::make_unique_for_overwrite<std::byte[]>(space);
+            at = heap_.get();
+        }
+        aligned_ = std::align(64, bytes, at, space);
+    }
+    void* data() const { return aligned_; }
+
+  private:
+    std::array<std::byte, 16 << 10> local_;
+    std::unique_ptr<std::byte[]> heap_;
+    void* aligned_ = nullptr;
+};
+
+template <class Real>
+native::Helpers helpers_for(const std::vector<native::CallContext>& calls) {
+    native::Helpers helpers;
+    constexpr bool single = sizeof(Real) == 4;
+    helpers.patch1 = single ? &native::patch_floats_1 : &native::patch_doubles_1;
+    helpers.patch2 = single ? &native::patch_floats_2 : &native::patch_doubles_2;
+    helpers.call = single ? &native::call_on_floats : &native::call_on_doubles;
+    for (const native::CallContext& call : calls) helpers.contexts.push_back(&call);
+    return helpers;
+}
+
+}  // namespace
+
+template <class Real>
+struct NativeCode<Real>::Program {
+    ClauseTape tape;  ///< owns what the calls read; the code for points outside the domain is made of it
+    Isa isa = Isa::sse2;
+    std::size_t lanes = 0;
+    std::vector<native::CallContext> calls;
+    native::CodeMemory memory;
+    NativeStatistics statistics;
+    NativeFunction points = nullptr;
+    bool has_domain = false;
+    mutable std::once_flag whole_once;
+    mutable std::unique_ptr<Program> whole;  ///< the code without a domain, when it was needed
+
+    bool build(const NativeOptions& options);
+    const Program& without_domain() const;
+    void run(const Real* const* coordinates, std::size_t count, Real* out) const;
+    std::size_t run_vectors(const Real* const* coordinates, std::size_t first, std::size_t vectors, Real* out,
+                            void* workspace) const;
+};
+
+template <class Real>
+bool NativeCode<Real>::Program::build(const NativeOptions& options) {
+    isa = options.isa;
+    lanes = vector_bytes_of(isa) / sizeof(Real);
+    has_domain = !options.domain.empty();
+    native::Translation made =
+        native::translate(tape, sizeof(Real) == 4, options.domain, static_cast<std::uint32_t>(lanes));
+    calls = std::move(made.calls);
+    native::StepList& list = made.list;
+    native::FunctionPlan plan;
+    const auto bytes = static_cast<std::int32_t>(vector_bytes_of(isa));
+    for (std::size_t i = 0; i < made.coordinates.size(); ++i) {
+        plan.sources.push_back({made.coordinates[i], false, static_cast<std::uint32_t>(i), 0});
+        plan.strides.push_back(bytes);
+        if (!has_domain) continue;
+        const math::Interval& range = options.domain[i];
+        plan.checks.push_back({made.coordinates[i], list.constant(range.lo), list.constant(range.hi)});
+    }
+    plan.targets.push_back({made.root, static_cast<std::uint32_t>(plan.strides.size()), 0});
+    plan.strides.push_back(bytes);
+    native::CodeWriter writer(list, isa, helpers_for<Real>(calls));
+    writer.add(plan);
+    std::vector<std::uint8_t> code;
+    std::vector<std::size_t> offsets;
+    if (!writer.finish(code, offsets)) return false;
+    memory = native::CodeMemory(code);
+    if (!memory.data()) return false;
+    points = reinterpret_cast<NativeFunction>(reinterpret_cast<std::uintptr_t>(memory.data() + offsets[0]));
+    statistics = {list.steps().size(), writer.instructions(), code.size(), writer.workspace()};
+    return true;
+}
+
+template <class Real>
+const typename NativeCode<Real>::Program& NativeCode<Real>::Program::without_domain() const {
+    std::call_once(whole_once, [this] {
+        auto made = std::make_unique<Program>();
+        made->tape = tape;
+        FREP_CHECK(made->build({isa, {}}));
+        whole = std::move(made);
+    });
+    return *whole;
+}
+
+/// Whole vectors from point `first` on; stops before one that has a point outside the domain.
+template <class Real>
+std::size_t NativeCode<Real>::Program::run_vectors(const Real* const* coordinates, std::size_t first,
+                                                   std::size_t vectors, Real* out, void* workspace) const {
+    const auto count = static_cast<std::size_t>(tape.data->coordinates);
+    std::array<void*, 16> few;
+    std::vector<void*> many;
+    if (count + 1 > few.size()) many.resize(count + 1);
+    void** const pointers = many.empty() ? few.data() : many.data();
+    for (std::size_t i = 0; i < count; ++i) pointers[i] = const_cast<Real*>(coordinates[i] + first);
+    pointers[count] = out + first;
+    return points(pointers, vectors, workspace);
+}
+
+template <class Real>
+void NativeCode<Real>::Program::run(const Real* const* coordinates, std::size_t count, Real* out) const {
+    const Workspace workspace(statistics.workspace);
+    const std::size_t vectors = count / lanes;
+    for (std::size_t done = 0; done < vectors;) {
+        done += run_vectors(coordinates, done * lanes, vectors - done, out, workspace.data());
+        if (done == vectors) break;
+        std::vector<const Real*> shifted(coordinates, coordinates + tape.data->coordinates);
+        for (const Real*& at : shifted) at += done * lanes;
+        without_domain().run(shifted.data(), lanes, out + done * lanes);
+        ++done;
+    }
+    const std::size_t rest = count - vectors * lanes;
+    if (rest == 0) return;
+    // The last points, repeated to a whole vector.
+    const auto columns = static_cast<std::size_t>(tape.data->coordinates);
+    std::vector<Real> padded((columns + 1) * lanes);
+    std::vector<const Real*> at(columns);
+    for (std::size_t i = 0; i < columns; ++i) {
+        for (std::size_t p = 0; p < lanes; ++p)
+            padded[i * lanes + p] = coordinates[i][std::min(vectors * lanes + p, count - 1)];
+        at[i] = padded.data() + i * lanes;
+    }
+    Real* const values = padded.data() + columns * lanes;
+    if (run_vectors(at.data(), 0, 1, values, workspace.data()) == 0)
+        without_domain().run(at.data(), lanes, values);
+    std::copy_n(values, rest, out + vectors * lanes);
+}
+
+template <class Real>
+NativeCode<Real>::NativeCode(std::unique_ptr<Program> program) : program_(std::move(program)) {}
+template <class Real>
+NativeCode<Real>::NativeCode(NativeCode&&) noexcept = default;
+template <class Real>
+NativeCode<Real>& NativeCode<Real>::operator=(NativeCode&&) noexcept = default;
+template <class Real>
+NativeCode<Real>::~NativeCode() = default;
+
+template <class Real>
+bool NativeCode<Real>::is_available() {
+    return machine_isa() >= Isa::avx2;
+}
+
+template <class Real>
+std::optional<NativeCode<Real>> NativeCode<Real>::compile(const ClauseTape& tape,
+                                                          const NativeOptions& options) {
+    if (options.isa < Isa::avx2 || options.isa > machine_isa()) return std::nullopt;
+    auto program = std::make_unique<Program>();
+    program->tape = tape;
+    if (!program->build(options)) return std::nullopt;
+    return NativeCode(std::move(program));
+}
+
+template <class Real>
+void NativeCode<Real>::run(const Real* const* coordinates, std::size_t count, Real* out) const {
+    const FloatControl control;
+    program_->run(coordinates, count, out);
+}
+
+template <class Real>
+const NativeStatistics& NativeCode<Real>::statistics() const {
+    return program_->statistics;
+}
+
+template <class Real>
+std::span<const std::uint8_t> NativeCode<Real>::bytes() const {
+    return {program_->memory.data(), program_->statistics.bytes};
+}
+
+template class NativeCode<double>;
+template class NativeCode<float>;
+
+}  // namespace frep
