@@ -204,8 +204,9 @@ Facts hull_of(const Facts& a, const Facts& b) {
 
 Facts facts_of_step(const StepList& list, StepOp op, ValueId a, ValueId b, std::uint8_t immediate) {
     const Facts fa = list.facts(a), fb = b == no_value ? Facts{} : list.facts(b);
-    // A value that is always NaN has no range to compute with.
-    if (fa.lo > fa.hi || fb.lo > fb.hi) return {};
+    // A value that is always NaN has no range to compute with; a bit pattern may look like one.
+    const bool on_bits = op >= StepOp::bit_and && op <= StepOp::shift_right;
+    if (!on_bits && (fa.lo > fa.hi || fb.lo > fb.hi)) return {};
     const bool single = list.single();
     switch (op) {
         case StepOp::add:
