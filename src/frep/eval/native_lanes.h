@@ -10,6 +10,7 @@
 #include "frep/math/power.h"
 #include "frep/math/remainder.h"
 #include "frep/math/rfunctions.h"
+#include "frep/math/single/functions.h"
 #include "frep/math/trig.h"
 
 namespace frep::native {
@@ -130,8 +131,14 @@ template <class Real>
 struct WordOf<EmitLanes<Real>> {
     using type = EmitWords<Real>;
 };
+template <class Real>
+struct ItemOf<EmitLanes<Real>> {
+    using type = Real;
+};
 template <>
 inline constexpr bool is_lane_type<EmitLanes<double>> = true;
+template <>
+inline constexpr bool is_single_type<EmitLanes<float>> = true;
 
 /// The friends under qualified names, as for LanesN.
 template <class Real>

@@ -14,35 +14,8 @@ using T = math::EmitLanes<Real>;
 
 /// Operations whose kernels decide by values, or visit lane by lane.
 template <class Real>
-constexpr bool is_straight(Op op) {
-    if (sizeof(Real) == 4) {
-        switch (op) {
-            case Op::add:
-            case Op::sub:
-            case Op::mul:
-            case Op::div:
-            case Op::neg:
-            case Op::square:
-            case Op::sqrt:
-            case Op::abs:
-            case Op::min:
-            case Op::max:
-            case Op::floor:
-            case Op::ceil:
-            case Op::trunc:
-            case Op::truth:
-            case Op::logical_not:
-            case Op::logical_and:
-            case Op::logical_or:
-            case Op::less:
-            case Op::less_equal:
-            case Op::equal:
-            case Op::select:
-                return true;
-            default:
-                return false;
-        }
-    }
+constexpr bool is_straight(Op op, int arity, int cost) {
+    if (sizeof(Real) == sizeof(float)) return arity <= 3 && cost <= 5;  // the loops of BatchVm<float>
     switch (op) {
         case Op::sardf_int:
         case Op::ellipsoid_distance:
@@ -70,14 +43,14 @@ Lanes call_kernel(Kernel kernel, const Lanes* a) {
 template <class Real>
 ValueId expand(Op op, const T<Real>* a) {
     switch (op) {
-#define FREP_CASE_leaf(name, arity)
-#define FREP_CASE_block(name, arity)
-#define FREP_CASE_plain(name, arity)                                                        \
+#define FREP_CASE_leaf(name, arity, cost)
+#define FREP_CASE_block(name, arity, cost)
+#define FREP_CASE_plain(name, arity, cost)                                                        \
     case Op::name:                                                                          \
-        if constexpr (is_straight<Real>(Op::name))                                          \
+        if constexpr (is_straight<Real>(Op::name, arity, cost))                                          \
             return call_kernel<arity>([](auto... v) { return kernels::name(v...); }, a).id; \
         return no_value;
-#define FREP_OP(name, kind, arity, cost, context, doc) FREP_CASE_##kind(name, arity)
+#define FREP_OP(name, kind, arity, cost, context, doc) FREP_CASE_##kind(name, arity, cost)
 #include "frep/field/ops.def"
 #undef FREP_OP
 #undef FREP_CASE_leaf
@@ -192,27 +165,31 @@ void patch_doubles_2(const void* f, unsigned mask, void* block) { patch_2<double
 void patch_floats_1(const void* f, unsigned mask, void* block) { patch_1<float>(f, mask, block, 16); }
 void patch_floats_2(const void* f, unsigned mask, void* block) { patch_2<float>(f, mask, block, 16); }
 
-/// Operand k stands at 64 k bytes.
-void call_on_doubles(const void* context, void* block) {
-    const CallContext& call = *static_cast<const CallContext*>(context);
-    constexpr std::uint32_t width = math::Lanes::size;
+namespace {
+
+/// Operand k stands at 64 k bytes. Numbers of binary32 are widened and the result is rounded once, as in
+/// batch_other.h.
+template <class Real>
+void call_meaning(const CallContext& call, Real* block) {
+    constexpr std::uint32_t width = math::Lanes::size, apart = 64 / sizeof(Real);
     std::vector<math::Lanes> arguments(call.operands);
-    double* const out = static_cast<double*>(block);
     for (std::uint32_t first = 0; first < call.lanes; first += width) {
         for (std::uint32_t k = 0; k < call.operands; ++k)
-            arguments[k] = math::Lanes::load(out + k * 8 + first);
-        meaning<math::Lanes>(call.op, arguments, call.block).store(out + first);
+            for (std::uint32_t i = 0; i < width; ++i)
+                arguments[k].set(static_cast<int>(i), block[k * apart + first + i]);
+        const math::Lanes r = meaning<math::Lanes>(call.op, arguments, call.block);
+        for (std::uint32_t i = 0; i < width; ++i)
+            block[first + i] = static_cast<Real>(r[static_cast<int>(i)]);
     }
 }
 
+}  // namespace
+
+void call_on_doubles(const void* context, void* block) {
+    call_meaning(*static_cast<const CallContext*>(context), static_cast<double*>(block));
+}
 void call_on_floats(const void* context, void* block) {
-    const CallContext& call = *static_cast<const CallContext*>(context);
-    std::vector<double> arguments(call.operands);
-    float* const out = static_cast<float*>(block);
-    for (std::uint32_t i = 0; i < call.lanes; ++i) {
-        for (std::uint32_t k = 0; k < call.operands; ++k) arguments[k] = out[k * 16 + i];
-        out[i] = static_cast<float>(meaning<double>(call.op, arguments, call.block));
-    }
+    call_meaning(*static_cast<const CallContext*>(context), static_cast<float*>(block));
 }
 
 Translation translate(const ClauseTape& tape, bool single, std::span<const math::Interval> domain,
