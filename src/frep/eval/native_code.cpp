@@ -9,9 +9,7 @@
 
 #include "frep/base/result.h"
 #include "frep/eval/float_control.h"
-#include "frep/eval/native_memory.h"
-#include "frep/eval/native_translate.h"
-#include "frep/eval/native_writer.h"
+#include "frep/eval/native_grid.h"
 
 namespace frep {
 
@@ -42,17 +40,6 @@ class Workspace {
     void* aligned_ = nullptr;
 };
 
-template <class Real>
-native::Helpers helpers_for(const std::vector<native::CallContext>& calls) {
-    native::Helpers helpers;
-    constexpr bool single = sizeof(Real) == 4;
-    helpers.patch1 = single ? &native::patch_floats_1 : &native::patch_doubles_1;
-    helpers.patch2 = single ? &native::patch_floats_2 : &native::patch_doubles_2;
-    helpers.call = single ? &native::call_on_floats : &native::call_on_doubles;
-    for (const native::CallContext& call : calls) helpers.contexts.push_back(&call);
-    return helpers;
-}
-
 }  // namespace
 
 template <class Real>
@@ -64,13 +51,17 @@ struct NativeCode<Real>::Program {
     native::CodeMemory memory;
     NativeStatistics statistics;
     NativeFunction points = nullptr;
-    bool has_domain = false;
+    std::vector<math::Interval> domain;  ///< empty: everywhere
     mutable std::once_flag whole_once;
     mutable std::unique_ptr<Program> whole;  ///< the code without a domain, when it was needed
+    mutable std::once_flag grid_once;
+    mutable std::unique_ptr<native::GridCode<Real>> grid;  ///< the code for grids, likewise
 
     bool build(const NativeOptions& options);
     const Program& without_domain() const;
     void run(const Real* const* coordinates, std::size_t count, Real* out) const;
+    void run(const NativeGrid<Real>& samples) const;
+    bool in_domain(const NativeGrid<Real>& samples) const;
     std::size_t run_vectors(const Real* const* coordinates, std::size_t first, std::size_t vectors, Real* out,
                             void* workspace) const;
 };
@@ -79,7 +70,7 @@ template <class Real>
 bool NativeCode<Real>::Program::build(const NativeOptions& options) {
     isa = options.isa;
     lanes = vector_bytes_of(isa) / sizeof(Real);
-    has_domain = !options.domain.empty();
+    domain.assign(options.domain.begin(), options.domain.end());
     native::Translation made =
         native::translate(tape, sizeof(Real) == 4, options.domain, static_cast<std::uint32_t>(lanes));
     calls = std::move(made.calls);
@@ -89,13 +80,13 @@ bool NativeCode<Real>::Program::build(const NativeOptions& options) {
     for (std::size_t i = 0; i < made.coordinates.size(); ++i) {
         plan.sources.push_back({made.coordinates[i], false, static_cast<std::uint32_t>(i), 0});
         plan.strides.push_back(bytes);
-        if (!has_domain) continue;
-        const math::Interval& range = options.domain[i];
+        if (domain.empty()) continue;
+        const math::Interval& range = domain[i];
         plan.checks.push_back({made.coordinates[i], list.constant(range.lo), list.constant(range.hi)});
     }
     plan.targets.push_back({made.root, static_cast<std::uint32_t>(plan.strides.size()), 0});
     plan.strides.push_back(bytes);
-    native::CodeWriter writer(list, isa, helpers_for<Real>(calls));
+    native::CodeWriter writer(list, isa, native::helpers_for<Real>(calls));
     writer.add(plan);
     std::vector<std::uint8_t> code;
     std::vector<std::size_t> offsets;
@@ -162,6 +153,28 @@ void NativeCode<Real>::Program::run(const Real* const* coordinates, std::size_t 
 }
 
 template <class Real>
+bool NativeCode<Real>::Program::in_domain(const NativeGrid<Real>& samples) const {
+    const std::array<std::span<const Real>, 3> axes = {samples.x, samples.y, samples.z};
+    for (std::size_t i = 0; i < domain.size(); ++i) {
+        const auto lo = static_cast<Real>(domain[i].lo), hi = static_cast<Real>(domain[i].hi);
+        for (const Real x : axes[i])
+            if (!(x >= lo && x <= hi)) return false;
+    }
+    return true;
+}
+
+template <class Real>
+void NativeCode<Real>::Program::run(const NativeGrid<Real>& samples) const {
+    if (!in_domain(samples)) return without_domain().run(samples);
+    std::call_once(grid_once, [this] {
+        auto made = std::make_unique<native::GridCode<Real>>();
+        FREP_CHECK(made->build(tape, isa, domain));
+        grid = std::move(made);
+    });
+    grid->run(samples);
+}
+
+template <class Real>
 NativeCode<Real>::NativeCode(std::unique_ptr<Program> program) : program_(std::move(program)) {}
 template <class Real>
 NativeCode<Real>::NativeCode(NativeCode&&) noexcept = default;
@@ -189,6 +202,12 @@ template <class Real>
 void NativeCode<Real>::run(const Real* const* coordinates, std::size_t count, Real* out) const {
     const FloatControl control;
     program_->run(coordinates, count, out);
+}
+
+template <class Real>
+void NativeCode<Real>::run(const NativeGrid<Real>& grid) const {
+    const FloatControl control;
+    program_->run(grid);
 }
 
 template <class Real>

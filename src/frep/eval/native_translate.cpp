@@ -45,9 +45,9 @@ ValueId expand(Op op, const T<Real>* a) {
     switch (op) {
 #define FREP_CASE_leaf(name, arity, cost)
 #define FREP_CASE_block(name, arity, cost)
-#define FREP_CASE_plain(name, arity, cost)                                                        \
+#define FREP_CASE_plain(name, arity, cost)                                                  \
     case Op::name:                                                                          \
-        if constexpr (is_straight<Real>(Op::name, arity, cost))                                          \
+        if constexpr (is_straight<Real>(Op::name, arity, cost))                             \
             return call_kernel<arity>([](auto... v) { return kernels::name(v...); }, a).id; \
         return no_value;
 #define FREP_OP(name, kind, arity, cost, context, doc) FREP_CASE_##kind(name, arity, cost)
