@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "frep/eval/batch_vm.h"
 #include "frep/eval/evaluator.h"
 #include "frep/eval/native_code.h"
 #include "frep/lang/vm_text.h"
@@ -48,9 +49,38 @@ struct Points {
 struct Contender {
     std::string name;
     std::function<void()> run;
+    std::size_t points = point_count;
     std::size_t repeats = 1;
-    std::vector<double> seconds;
+    std::vector<double> seconds = {};
 };
+
+/// A block of a dense grid, `size` samples an axis.
+template <class Real>
+void add_grid(std::vector<Contender>& all, std::shared_ptr<NativeCode<Real>> code, Isa isa,
+              std::size_t size) {
+    auto axis = std::make_shared<std::vector<Real>>(size);
+    for (std::size_t i = 0; i < size; ++i)
+        (*axis)[i] = static_cast<Real>(-0.5 + static_cast<double>(i) / static_cast<double>(size));
+    auto out = std::make_shared<std::vector<Real>>(size * size * size);
+    all.push_back({fmt::format("{:6} {:6} domain, grid of {}^3", sizeof(Real) == 4 ? "float" : "double",
+                               name_of(isa), size),
+                   [=] {
+                       code->run(NativeGrid<Real>{*axis, *axis, *axis, out->data(), size, size * size});
+                   },
+                   size * size * size});
+}
+
+template <class Real>
+void add_batch_vm(std::vector<Contender>& all, const ClauseTape& tape, Points<Real>& points) {
+    auto packed = std::make_shared<ClauseTape>(tape);
+    pack_rows(*packed);
+    auto vm = std::make_shared<BatchVm<Real>>();
+    all.push_back({fmt::format("{:6} BatchVm", sizeof(Real) == 4 ? "float" : "double"), [=, &points] {
+                       const Real* const in[3] = {points.x.data(), points.y.data(), points.z.data()};
+                       const auto coordinates = static_cast<std::size_t>(packed->data->coordinates);
+                       vm->values(*packed, {in, coordinates}, point_count, points.f.data());
+                   }});
+}
 
 template <class Real>
 void add_native(std::vector<Contender>& all, const ClauseTape& tape, Points<Real>& points, Isa isa,
@@ -76,9 +106,10 @@ void add_native(std::vector<Contender>& all, const ClauseTape& tape, Points<Real
          [code, &points] {
              const Real* const in[3] = {points.x.data(), points.y.data(), points.z.data()};
              code->run(in, point_count, points.f.data());
-         },
-         1,
-         {}});
+         }});
+    if (!domain || tape.data->coordinates != 3) return;
+    add_grid(all, code, isa, 33);
+    add_grid(all, code, isa, 64);
 }
 
 void measure(const std::string& path) {
@@ -95,14 +126,13 @@ void measure(const std::string& path) {
     Points<float> floats;
     std::vector<Contender> all;
     auto vm = make_evaluator(*field, {.engine = Engine::vm});
-    all.push_back({"double vm",
-                   [&] {
+    all.push_back({"double vm", [&] {
                        const double* const in[3] = {doubles.x.data(), doubles.y.data(), doubles.z.data()};
                        double* const out[1] = {doubles.f.data()};
                        (*vm)->values({in, static_cast<std::size_t>(field->coordinates)}, point_count, out);
-                   },
-                   1,
-                   {}});
+                   }});
+    add_batch_vm(all, *tape, doubles);
+    add_batch_vm(all, *tape, floats);
     for (const Isa isa : {Isa::avx2, Isa::avx512}) {
         for (const bool domain : {false, true}) {
             add_native(all, *tape, doubles, isa, domain);
@@ -123,10 +153,10 @@ void measure(const std::string& path) {
     }
     fmt::print("{}: {} clauses\n", path.substr(path.rfind('/') + 1), tape->clauses.size());
     for (const Contender& c : all) {
-        const double mega = 1e-6 * static_cast<double>(point_count) / median(c.seconds);
+        const double mega = 1e-6 * static_cast<double>(c.points) / median(c.seconds);
         fmt::print("  {:9.2f} Mpts/s {:7.2f} ops/ns {:7.1f} x  {}\n", mega,
                    1e-3 * mega * static_cast<double>(tape->clauses.size()),
-                   median(all[0].seconds) / median(c.seconds), c.name);
+                   mega * median(all[0].seconds) / (1e-6 * point_count), c.name);
     }
 }
 
