@@ -1,15 +1,19 @@
-// Memory for machine code: written first, then made executable, never both at a time (W^X). Method: own
-// mappings, mmap and mprotect. Tested by tests/unit/eval/native_code_test.cpp, which reads /proc/self/maps.
+// Memory for machine code: a view that can be written and another, elsewhere, that can be run; no address can
+// be both (W^X). Method: a pool of memory files (memfd), each mapped twice, so that small codes cost no
+// system call; where the system has none, and for large codes, a mapping that is written first and then made
+// executable. Tested by tests/unit/eval/native_code_test.cpp, which reads /proc/self/maps.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <span>
 
 namespace frep::native {
 
-/// A mapping that holds `bytes`, readable and executable; freed with the object. Empty where the system
-/// refuses.
+class CodePool;
+
+/// Memory that holds `bytes`, readable and executable; freed with the object. Empty where the system refuses.
 class CodeMemory {
   public:
     CodeMemory() = default;
@@ -22,8 +26,11 @@ class CodeMemory {
     std::size_t size() const { return size_; }
 
   private:
+    bool map_alone(std::span<const std::uint8_t> bytes);
+
     std::uint8_t* data_ = nullptr;
     std::size_t size_ = 0;
+    std::shared_ptr<CodePool> pool_;  ///< empty: a mapping of its own
 };
 
 }  // namespace frep::native
