@@ -15,7 +15,9 @@ using T = math::EmitLanes<Real>;
 /// Operations whose kernels decide by values, or visit lane by lane.
 template <class Real>
 constexpr bool is_straight(Op op, int arity, int cost) {
-    if (sizeof(Real) == sizeof(float)) return arity <= 3 && cost <= 5;  // the loops of BatchVm<float>
+    // In binary32: the loops of BatchVm<float> (batch_loops.h).
+    const bool has_single = op == Op::exp || op == Op::log || op == Op::sin || op == Op::cos;
+    if (sizeof(Real) == sizeof(float) && !has_single) return arity <= 3 && cost <= 5;
     switch (op) {
         case Op::sardf_int:
         case Op::ellipsoid_distance:
