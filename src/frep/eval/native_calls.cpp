@@ -1,6 +1,8 @@
 // Implementation of native_writer.h: rare lanes and clauses without instructions of their own, by calls of
 // C++ functions. A rare part stands behind the loop and saves the registers; a call in the open has none to
 // save.
+#if defined(FREP_HAS_JIT)
+
 #include "frep/base/result.h"
 #include "frep/eval/native_writer.h"
 
@@ -30,6 +32,7 @@ void FunctionWriter::call_outside(const void* function, Arguments arguments) {
     if (count % 2 != 0) code_.emit(Inst::kIdPop, x86::rax);
     for (std::size_t i = count; i-- > 0;)
         code_.emit(Inst::kIdPop, pointer_register(static_cast<std::uint32_t>(safe_pointers + i)));
+    point_at_constants();
 }
 
 void FunctionWriter::write_patch(std::uint32_t index, const Step& step) {
@@ -115,3 +118,5 @@ void FunctionWriter::write_call(std::uint32_t index, const Step& step) {
 }
 
 }  // namespace frep::native
+
+#endif  // FREP_HAS_JIT

@@ -1,4 +1,6 @@
 // Implementation of native_code.h: compiling, and runs over columns of points.
+#if defined(FREP_HAS_JIT)
+
 #include "frep/eval/native_code.h"
 
 #include <algorithm>
@@ -58,6 +60,7 @@ struct NativeCode<Real>::Program {
     mutable std::unique_ptr<native::GridCode<Real>> grid;  ///< the code for grids, likewise
 
     bool build(const NativeOptions& options);
+    native::Translation translated(bool& checked) const;
     const Program& without_domain() const;
     void run(const Real* const* coordinates, std::size_t count, Real* out) const;
     void run(const NativeGrid<Real>& samples) const;
@@ -66,13 +69,48 @@ struct NativeCode<Real>::Program {
                             void* workspace) const;
 };
 
+namespace {
+
+/// Steps that the root needs, constants aside.
+std::size_t needed_steps(const native::Translation& made) {
+    const auto& steps = made.list.steps();
+    std::vector<bool> live(steps.size(), false);
+    live[made.root] = true;
+    std::size_t count = 0;
+    for (std::size_t v = steps.size(); v-- > 0;) {
+        if (!live[v] || steps[v].op == native::StepOp::constant) continue;
+        ++count;
+        for (const native::ValueId in : made.list.operands_of(steps[v])) live[in] = true;
+    }
+    return count;
+}
+
+/// Tapes of at most this many clauses are tried with and without their domain, whose check may cost more than
+/// it saves.
+constexpr std::size_t short_tape = 64;
+
+}  // namespace
+
+template <class Real>
+native::Translation NativeCode<Real>::Program::translated(bool& checked) const {
+    constexpr bool single = sizeof(Real) == 4;
+    const bool wide = isa == Isa::avx512;
+    native::Translation made = native::translate(tape, single, wide, domain);
+    checked = !domain.empty();
+    if (!checked || tape.clauses.size() > short_tape) return made;
+    native::Translation plain = native::translate(tape, single, wide, {});
+    if (needed_steps(plain) > needed_steps(made) + 2 * domain.size() + 2) return made;
+    checked = false;
+    return plain;
+}
+
 template <class Real>
 bool NativeCode<Real>::Program::build(const NativeOptions& options) {
     isa = options.isa;
     lanes = vector_bytes_of(isa) / sizeof(Real);
     domain.assign(options.domain.begin(), options.domain.end());
-    native::Translation made =
-        native::translate(tape, sizeof(Real) == 4, options.domain, static_cast<std::uint32_t>(lanes));
+    bool checked = false;
+    native::Translation made = translated(checked);
     calls = std::move(made.calls);
     native::StepList& list = made.list;
     native::FunctionPlan plan;
@@ -80,7 +118,7 @@ bool NativeCode<Real>::Program::build(const NativeOptions& options) {
     for (std::size_t i = 0; i < made.coordinates.size(); ++i) {
         plan.sources.push_back({made.coordinates[i], false, static_cast<std::uint32_t>(i), 0});
         plan.strides.push_back(bytes);
-        if (domain.empty()) continue;
+        if (!checked) continue;
         const math::Interval& range = domain[i];
         plan.checks.push_back({made.coordinates[i], list.constant(range.lo), list.constant(range.hi)});
     }
@@ -94,7 +132,8 @@ bool NativeCode<Real>::Program::build(const NativeOptions& options) {
     memory = native::CodeMemory(code);
     if (!memory.data()) return false;
     points = reinterpret_cast<NativeFunction>(reinterpret_cast<std::uintptr_t>(memory.data() + offsets[0]));
-    statistics = {list.steps().size(), writer.instructions(), code.size(), writer.workspace()};
+    statistics = {list.steps().size(), writer.instructions(), writer.code_bytes(), code.size(),
+                  writer.workspace()};
     return true;
 }
 
@@ -220,7 +259,22 @@ std::span<const std::uint8_t> NativeCode<Real>::bytes() const {
     return {program_->memory.data(), program_->statistics.bytes};
 }
 
+/// Nanoseconds, measured by bench/jit_bench.cpp (Zen 5, AVX-512): compiling a tape, and an operation of cost
+/// 1 of it; what native code saves against BatchVm for such an operation at a point.
+template <class Real>
+bool native_code_pays(const ClauseTape& tape, std::size_t points) {
+    constexpr double tape_cost = 5000, operation_cost = 130;
+    constexpr double saved = sizeof(Real) == 4 ? 0.035 : 0.065;
+    if (!NativeCode<Real>::is_available()) return false;
+    const double operations = cost_of(tape);
+    return static_cast<double>(points) * saved * operations > tape_cost + operation_cost * operations;
+}
+
 template class NativeCode<double>;
 template class NativeCode<float>;
+template bool native_code_pays<double>(const ClauseTape&, std::size_t);
+template bool native_code_pays<float>(const ClauseTape&, std::size_t);
 
 }  // namespace frep
+
+#endif  // FREP_HAS_JIT

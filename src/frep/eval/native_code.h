@@ -28,7 +28,8 @@ struct NativeOptions {
 struct NativeStatistics {
     std::size_t steps = 0;         ///< machine-like operations, dead ones included
     std::size_t instructions = 0;  ///< of all functions
-    std::size_t bytes = 0;         ///< code and constants
+    std::size_t code_bytes = 0;    ///< instructions
+    std::size_t bytes = 0;         ///< with the constants behind them
     std::size_t workspace = 0;     ///< bytes that a run needs
 };
 

@@ -1,5 +1,7 @@
 // Implementation of native_writer.h: the instructions. Registers of a function: rbx pointers[], rbp
 // workspace, r12 vectors left, rax scratch, the others pointers as far as they reach.
+#if defined(FREP_HAS_JIT)
+
 #include <algorithm>
 
 #include "frep/base/result.h"
@@ -17,25 +19,26 @@ namespace {
 /// Every instruction that may be written. Nothing here enters the system, touches other memory than its
 /// operands or changes the floating-point state.
 constexpr InstId allowed[] = {
-    Inst::kIdMov,         Inst::kIdPush,         Inst::kIdPop,          Inst::kIdAdd,
-    Inst::kIdSub,         Inst::kIdCmp,          Inst::kIdTest,         Inst::kIdLea,
-    Inst::kIdDec,         Inst::kIdJz,           Inst::kIdJnz,          Inst::kIdJnc,
-    Inst::kIdJmp,         Inst::kIdCall,         Inst::kIdRet,          Inst::kIdVzeroupper,
-    Inst::kIdVaddps,      Inst::kIdVaddpd,       Inst::kIdVsubps,       Inst::kIdVsubpd,
-    Inst::kIdVmulps,      Inst::kIdVmulpd,       Inst::kIdVdivps,       Inst::kIdVdivpd,
-    Inst::kIdVsqrtps,     Inst::kIdVsqrtpd,      Inst::kIdVminps,       Inst::kIdVminpd,
-    Inst::kIdVmaxps,      Inst::kIdVmaxpd,       Inst::kIdVroundps,     Inst::kIdVroundpd,
-    Inst::kIdVrndscaleps, Inst::kIdVrndscalepd,  Inst::kIdVandps,       Inst::kIdVandpd,
-    Inst::kIdVorps,       Inst::kIdVorpd,        Inst::kIdVxorps,       Inst::kIdVxorpd,
-    Inst::kIdVpaddd,      Inst::kIdVpaddq,       Inst::kIdVpsubd,       Inst::kIdVpsubq,
-    Inst::kIdVpslld,      Inst::kIdVpsllq,       Inst::kIdVpsrld,       Inst::kIdVpsrlq,
-    Inst::kIdVcmpps,      Inst::kIdVcmppd,       Inst::kIdVptestmd,     Inst::kIdVptestmq,
-    Inst::kIdKandw,       Inst::kIdKandb,        Inst::kIdKorw,         Inst::kIdKorb,
-    Inst::kIdKnotw,       Inst::kIdKnotb,        Inst::kIdKxorw,        Inst::kIdKxorb,
-    Inst::kIdKxnorw,      Inst::kIdKxnorb,       Inst::kIdKortestw,     Inst::kIdKortestb,
-    Inst::kIdKmovw,       Inst::kIdVmovmskps,    Inst::kIdVmovmskpd,    Inst::kIdVblendmps,
-    Inst::kIdVblendmpd,   Inst::kIdVblendvps,    Inst::kIdVblendvpd,    Inst::kIdVmovups,
-    Inst::kIdVmovaps,     Inst::kIdVbroadcastss, Inst::kIdVbroadcastsd,
+    Inst::kIdMov,          Inst::kIdPush,      Inst::kIdPop,         Inst::kIdAdd,
+    Inst::kIdSub,          Inst::kIdCmp,       Inst::kIdTest,        Inst::kIdLea,
+    Inst::kIdDec,          Inst::kIdJz,        Inst::kIdJnz,         Inst::kIdJnc,
+    Inst::kIdJmp,          Inst::kIdCall,      Inst::kIdRet,         Inst::kIdVzeroupper,
+    Inst::kIdVaddps,       Inst::kIdVaddpd,    Inst::kIdVsubps,      Inst::kIdVsubpd,
+    Inst::kIdVmulps,       Inst::kIdVmulpd,    Inst::kIdVdivps,      Inst::kIdVdivpd,
+    Inst::kIdVsqrtps,      Inst::kIdVsqrtpd,   Inst::kIdVminps,      Inst::kIdVminpd,
+    Inst::kIdVscalefps,    Inst::kIdVscalefpd, Inst::kIdVmaxps,      Inst::kIdVmaxpd,
+    Inst::kIdVroundps,     Inst::kIdVroundpd,  Inst::kIdVrndscaleps, Inst::kIdVrndscalepd,
+    Inst::kIdVandps,       Inst::kIdVandpd,    Inst::kIdVorps,       Inst::kIdVorpd,
+    Inst::kIdVxorps,       Inst::kIdVxorpd,    Inst::kIdVpaddd,      Inst::kIdVpaddq,
+    Inst::kIdVpsubd,       Inst::kIdVpsubq,    Inst::kIdVpslld,      Inst::kIdVpsllq,
+    Inst::kIdVpsrld,       Inst::kIdVpsrlq,    Inst::kIdVcmpps,      Inst::kIdVcmppd,
+    Inst::kIdVptestmd,     Inst::kIdVptestmq,  Inst::kIdKandw,       Inst::kIdKandb,
+    Inst::kIdKorw,         Inst::kIdKorb,      Inst::kIdKnotw,       Inst::kIdKnotb,
+    Inst::kIdKxorw,        Inst::kIdKxorb,     Inst::kIdKxnorw,      Inst::kIdKxnorb,
+    Inst::kIdKortestw,     Inst::kIdKortestb,  Inst::kIdKmovw,       Inst::kIdVmovmskps,
+    Inst::kIdVmovmskpd,    Inst::kIdVblendmps, Inst::kIdVblendmpd,   Inst::kIdVblendvps,
+    Inst::kIdVblendvpd,    Inst::kIdVmovups,   Inst::kIdVmovaps,     Inst::kIdVbroadcastss,
+    Inst::kIdVbroadcastsd,
 };
 
 struct Both {
@@ -71,8 +74,26 @@ Both instructions_of(StepOp op) {
             return {Inst::kIdVpslld, Inst::kIdVpsllq};
         case StepOp::shift_right:
             return {Inst::kIdVpsrld, Inst::kIdVpsrlq};
+        case StepOp::scale:
+            return {Inst::kIdVscalefps, Inst::kIdVscalefpd};
         default:
             FREP_CHECK(false);
+    }
+}
+
+/// The predicate for the operands in the other order.
+std::uint8_t turned(std::uint8_t predicate) {
+    switch (static_cast<Predicate>(predicate)) {
+        case Predicate::less:
+            return static_cast<std::uint8_t>(Predicate::greater);
+        case Predicate::less_equal:
+            return static_cast<std::uint8_t>(Predicate::greater_equal);
+        case Predicate::not_less:
+            return static_cast<std::uint8_t>(Predicate::not_greater);
+        case Predicate::not_less_equal:
+            return static_cast<std::uint8_t>(Predicate::not_greater_equal);
+        default:
+            return predicate;
     }
 }
 
@@ -90,11 +111,17 @@ CodeWriter::CodeWriter(const StepList& list, Isa isa, Helpers helpers)
 void CodeWriter::emit(InstId id, const asmjit::Operand_& a, const asmjit::Operand_& b,
                       const asmjit::Operand_& c, const asmjit::Operand_& d) {
     ++instructions_;
+    FREP_CHECK(is_allowed(id));
     assembler_.emit(id, a, b, c, d);
 }
 
 bool CodeWriter::is_allowed(InstId id) {
-    return std::find(std::begin(allowed), std::end(allowed), id) != std::end(allowed);
+    static const auto table = [] {
+        std::array<bool, Inst::_kIdCount> ids{};
+        for (const InstId one : allowed) ids[one] = true;
+        return ids;
+    }();
+    return id < table.size() && table[id];
 }
 
 x86::Mem CodeWriter::constant_at(ValueId v) {
@@ -102,9 +129,23 @@ x86::Mem CodeWriter::constant_at(ValueId v) {
         constants_.push_back(list_.steps()[v].bits);
         place_of_constant_[v] = static_cast<std::uint32_t>(constants_.size());
     }
-    const std::int32_t item = wide_ ? (single_ ? 4 : 8) : 32;
-    const x86::Mem at = x86::ptr(pool_, static_cast<std::int32_t>(place_of_constant_[v] - 1) * item);
-    return !wide_ ? at : single_ ? at._1to16() : at._1to8();
+    const auto place = static_cast<std::int32_t>(place_of_constant_[v] - 1);
+    return wide_ ? broadcast_at(place) : x86::ptr(pool_, place * 32);
+}
+
+/// Near constants are reached from r11 by a displacement of one byte, which counts in items: shorter code,
+/// and long tapes are bound by the bytes of their code.
+x86::Mem CodeWriter::broadcast_at(std::int32_t place) const {
+    const std::int32_t item = single_ ? 4 : 8;
+    const x86::Mem at = place < 2 * near_constants ? x86::ptr(x86::r11, (place - near_constants) * item)
+                                                   : x86::ptr(pool_, place * item);
+    return single_ ? at._1to16() : at._1to8();
+}
+
+void FunctionWriter::point_at_constants() {
+    if (!wide_) return;
+    const std::int32_t item = single_ ? 4 : 8;
+    code_.emit(Inst::kIdLea, x86::r11, x86::ptr(code_.pool_, CodeWriter::near_constants * item));
 }
 
 x86::Mem CodeWriter::ones() {
@@ -120,8 +161,7 @@ x86::Mem CodeWriter::one() {
         constants_.push_back(1);
         place_of_one_ = static_cast<std::uint32_t>(constants_.size());
     }
-    const x86::Mem at = x86::ptr(pool_, static_cast<std::int32_t>(place_of_one_ - 1) * (single_ ? 4 : 8));
-    return single_ ? at._1to16() : at._1to8();
+    return broadcast_at(static_cast<std::int32_t>(place_of_one_ - 1));
 }
 
 std::size_t CodeWriter::add(const FunctionPlan& plan) {
@@ -133,6 +173,7 @@ std::size_t CodeWriter::add(const FunctionPlan& plan) {
 }
 
 bool CodeWriter::finish(std::vector<std::uint8_t>& bytes, std::vector<std::size_t>& offsets) {
+    code_bytes_ = assembler_.offset();
     assembler_.align(asmjit::AlignMode::kData, 64);
     assembler_.bind(pool_);
     const int copies = wide_ ? 1 : single_ ? 8 : 4;
@@ -157,9 +198,8 @@ x86::Mem FunctionWriter::work(std::size_t offset) const {
 
 /// The first safe_pointers of them survive calls.
 x86::Gp FunctionWriter::pointer_register(std::uint32_t i) {
-    const std::array<x86::Gp, pointer_registers> all = {x86::r13, x86::r14, x86::r15, x86::rsi,
-                                                        x86::rdi, x86::rcx, x86::rdx, x86::r8,
-                                                        x86::r9,  x86::r10, x86::r11};
+    const std::array<x86::Gp, pointer_registers> all = {x86::r13, x86::r14, x86::r15, x86::rsi, x86::rdi,
+                                                        x86::rcx, x86::rdx, x86::r8,  x86::r9,  x86::r10};
     return all[i];
 }
 
@@ -201,6 +241,8 @@ void FunctionWriter::enter() {
     loop_ = code_.assembler_.newLabel();
     code_.emit(Inst::kIdTest, x86::r12, x86::r12);
     code_.emit(Inst::kIdJz, end_);
+    point_at_constants();
+    pin_constants();
     code_.assembler_.align(asmjit::AlignMode::kCode, 32);
     code_.assembler_.bind(loop_);
 }
@@ -316,8 +358,8 @@ void FunctionWriter::write_plain(std::uint32_t index, const Step& step) {
     // A commuting operation reads memory through either operand.
     const bool swap = step.count == 2 && step.op != StepOp::subtract && step.op != StepOp::divide &&
                       step.op != StepOp::lesser && step.op != StepOp::greater &&
-                      step.op != StepOp::word_subtract && homes_[step.in[0]].reg == nowhere &&
-                      homes_[step.in[1]].reg != nowhere;
+                      step.op != StepOp::word_subtract && step.op != StepOp::scale &&
+                      homes_[step.in[0]].reg == nowhere && homes_[step.in[1]].reg != nowhere;
     const int one = swap ? 1 : 0;
     const x86::Vec a = vector(in_register(step.in[one]));
     const asmjit::Operand b = step.count == 2 ? anywhere(step.in[1 - one], following(index, 1 - one))
@@ -329,7 +371,10 @@ void FunctionWriter::write_plain(std::uint32_t index, const Step& step) {
 }
 
 void FunctionWriter::write_compare(std::uint32_t index, const Step& step) {
-    const x86::Vec a = vector(in_register(step.in[0]));
+    // A constant goes second: it can stay in memory.
+    const bool turn = step.op == StepOp::compare && is_constant(step.in[0]) && !is_constant(step.in[1]);
+    const int one = turn ? 1 : 0;
+    const x86::Vec a = vector(in_register(step.in[one]));
     if (step.op == StepOp::low_bit) {
         after_operands(index, step);
         if (wide_) {
@@ -342,14 +387,16 @@ void FunctionWriter::write_compare(std::uint32_t index, const Step& step) {
         code_.emit(single_ ? Inst::kIdVpslld : Inst::kIdVpsllq, vector(out), a, imm(single_ ? 31 : 63));
         return hold(vectors, out, index);
     }
-    const asmjit::Operand b = step.in[0] == step.in[1] ? static_cast<asmjit::Operand>(a)
-                                                       : anywhere(step.in[1], following(index, 1));
+    const asmjit::Operand b = step.in[0] == step.in[1]
+                                  ? static_cast<asmjit::Operand>(a)
+                                  : anywhere(step.in[1 - one], following(index, 1 - one));
     after_operands(index, step);
     const Class c = wide_ ? masks : vectors;
     const std::uint32_t out = take(c);
     const asmjit::Operand to =
         wide_ ? static_cast<asmjit::Operand>(x86::k(out)) : static_cast<asmjit::Operand>(vector(out));
-    code_.emit(single_ ? Inst::kIdVcmpps : Inst::kIdVcmppd, to, a, b, imm(step.immediate));
+    code_.emit(single_ ? Inst::kIdVcmpps : Inst::kIdVcmppd, to, a, b,
+               imm(turn ? turned(step.immediate) : step.immediate));
     hold(c, out, index);
 }
 
@@ -404,3 +451,5 @@ void FunctionWriter::write_choose(std::uint32_t index, const Step& step) {
 }
 
 }  // namespace frep::native
+
+#endif  // FREP_HAS_JIT

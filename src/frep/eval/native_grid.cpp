@@ -1,6 +1,8 @@
 // Implementation of native_grid.h. A table of a set of axes has, for each vector along the lowest axis of the
 // set, one vector of each value kept; along the other axis of the set it repeats. Read along another axis
 // than its lowest one, a value is a single number for all lanes.
+#if defined(FREP_HAS_JIT)
+
 #include "frep/eval/native_grid.h"
 
 #include <algorithm>
@@ -118,7 +120,7 @@ template <class Real>
 bool GridCode<Real>::build(const ClauseTape& tape, Isa isa, std::span<const math::Interval> domain) {
     FREP_CHECK(tape.data->coordinates <= 3);
     lanes_ = (isa == Isa::avx512 ? 64 : 32) / sizeof(Real);
-    Translation made = translate(tape, sizeof(Real) == 4, domain, static_cast<std::uint32_t>(lanes_));
+    Translation made = translate(tape, sizeof(Real) == 4, isa == Isa::avx512, domain);
     calls_ = std::move(made.calls);
     const auto sets = sets_of(made.list, made.coordinates);
     choose_tables(made, sets);
@@ -289,3 +291,5 @@ template class GridCode<double>;
 template class GridCode<float>;
 
 }  // namespace frep::native
+
+#endif  // FREP_HAS_JIT

@@ -51,8 +51,9 @@ Predicate opposite(Predicate p) {
             return Predicate::not_less_equal;
         case Predicate::not_less_equal:
             return Predicate::less_equal;
+        default:
+            FREP_CHECK(false);  // made when instructions are written, never in a list
     }
-    FREP_CHECK(false);
 }
 
 enum class Known { no, yes, open };
@@ -81,7 +82,8 @@ Known known_to_hold(Predicate p, const Facts& a, const Facts& b, bool same) {
 
 }  // namespace
 
-StepList::StepList(bool single) : single_(single), table_(256, no_value) {}
+StepList::StepList(bool single, bool has_scale)
+    : single_(single), has_scale_(has_scale), table_(256, no_value) {}
 
 double StepList::number_of(ValueId v) const { return number_of_bits(single_, steps_[v].bits); }
 
@@ -193,7 +195,7 @@ ValueId StepList::simplify(StepOp op, ValueId a, ValueId b, std::uint8_t) {
             if (is_number(a, 1.0)) return b;
             if (is_number(b, -1.0)) return make(StepOp::bit_xor, a, constant_bits(sign_bit()));
             if (is_number(a, -1.0)) return make(StepOp::bit_xor, b, constant_bits(sign_bit()));
-            return no_value;
+            return has_scale_ ? find_scale(a, b) : no_value;
         case StepOp::divide: {
             if (is_number(b, 1.0)) return a;
             if (!is_constant(b)) return no_value;
@@ -215,6 +217,42 @@ ValueId StepList::simplify(StepOp op, ValueId a, ValueId b, std::uint8_t) {
         default:
             return simplify_masks(op, a, b);
     }
+}
+
+/// True if v = op(something, the constant with bits `second`), or a shift by `places`.
+bool StepList::is_step(ValueId v, StepOp op, std::uint64_t second, int places) const {
+    const Step& step = steps_[v];
+    if (step.op != op) return false;
+    if (step.count == 1) return step.immediate == places;
+    return is_constant(step.in[1]) && steps_[step.in[1]].bits == second;
+}
+
+/// The formula by which the kernels of exp multiply by a power of two in two factors (scale() of exp_log.h
+/// and single/exp_log.h): the first product is exact, so that one operation of the machine has the same bits.
+ValueId StepList::find_scale(ValueId a, ValueId b) {
+    const int fraction = single_ ? 23 : 52;
+    const std::uint64_t bias = single_ ? 127 : 1023,
+                        to_integer = bits_of_number(single_, single_ ? 0x1.8p23 : 0x1.8p52);
+    if (steps_[a].op == StepOp::shift_left) std::swap(a, b);
+    if (steps_[a].op != StepOp::multiply || !is_step(b, StepOp::shift_left, 0, fraction)) return no_value;
+    const ValueId sum = steps_[b].in[0];
+    if (!is_step(sum, StepOp::word_add, 2 * bias + 1)) return no_value;
+    const ValueId rest = steps_[sum].in[0];
+    if (steps_[rest].op != StepOp::word_subtract) return no_value;
+    const ValueId k = steps_[rest].in[0], half = steps_[rest].in[1];
+    if (!is_step(k, StepOp::word_subtract, to_integer) || !is_step(half, StepOp::shift_right, 0, 1))
+        return no_value;
+    const ValueId moved = steps_[half].in[0];
+    if (!is_step(moved, StepOp::word_add, 2 * bias + 2) || steps_[moved].in[0] != k) return no_value;
+    for (int i = 0; i < 2; ++i) {
+        const ValueId first = steps_[a].in[i];
+        if (!is_step(first, StepOp::shift_left, 0, fraction)) continue;
+        const ValueId less = steps_[first].in[0];
+        if (!is_step(less, StepOp::word_subtract, 1) || steps_[less].in[0] != half) continue;
+        const ValueId integer = make(StepOp::subtract, steps_[k].in[0], constant_bits(to_integer));
+        return make(StepOp::scale, steps_[a].in[1 - i], integer);
+    }
+    return no_value;
 }
 
 ValueId StepList::simplify_masks(StepOp op, ValueId a, ValueId b) {
@@ -279,6 +317,12 @@ ValueId StepList::mask_not(ValueId m) {
 ValueId StepList::choose(ValueId mask, ValueId a, ValueId b) {
     if (a == b) return a;
     if (steps_[mask].op == StepOp::mask_constant) return steps_[mask].immediate != 0 ? a : b;
+    // Selections by a comparison of the same two values are what the machine's minimum and maximum compute.
+    const Step& test = steps_[mask];
+    if (test.op == StepOp::compare && test.immediate == static_cast<int>(Predicate::less)) {
+        if (test.in[0] == a && test.in[1] == b) return make(StepOp::lesser, a, b);
+        if (test.in[0] == b && test.in[1] == a) return make(StepOp::greater, a, b);
+    }
     Step step;
     step.op = StepOp::choose;
     step.count = 3;

@@ -27,6 +27,7 @@ enum class StepOp : std::uint8_t {
     lesser,   ///< a < b ? a : b, so b where one is NaN or both are 0: the machine's minimum
     greater,  ///< b < a ? a : b
     round,    ///< immediate = Rounding
+    scale,    ///< a * 2^b for an integer b, rounded once (AVX-512)
     bit_and,
     bit_or,
     bit_xor,
@@ -54,7 +55,11 @@ enum class Predicate : std::uint8_t {
     less = 0x11,
     less_equal = 0x12,
     not_less = 0x15,
-    not_less_equal = 0x16
+    not_less_equal = 0x16,
+    not_greater_equal = 0x19,
+    not_greater = 0x1a,
+    greater_equal = 0x1d,
+    greater = 0x1e
 };
 enum class Rounding : std::uint8_t { down = 1, up = 2, to_zero = 3 };
 
@@ -91,7 +96,8 @@ inline bool is_mask(StepOp op) {
 /// The list. Values are numbers of steps. `single`: reals are binary32 and words have 32 bits.
 class StepList {
   public:
-    explicit StepList(bool single);
+    /// `has_scale`: the machine has StepOp::scale.
+    StepList(bool single, bool has_scale);
 
     bool single() const { return single_; }
     const std::vector<Step>& steps() const { return steps_; }
@@ -133,10 +139,12 @@ class StepList {
     ValueId fold_constants(StepOp op, ValueId a, ValueId b, std::uint8_t immediate);
     ValueId simplify(StepOp op, ValueId a, ValueId b, std::uint8_t immediate);
     ValueId simplify_masks(StepOp op, ValueId a, ValueId b);
+    ValueId find_scale(ValueId product, ValueId second);
+    bool is_step(ValueId v, StepOp op, std::uint64_t second, int places = 0) const;
     ValueId extremum(StepOp op, ValueId a, ValueId b);
     bool is_number(ValueId v, double number) const;
 
-    bool single_;
+    bool single_, has_scale_;
     std::vector<Step> steps_;
     std::vector<Facts> facts_;
     std::vector<ValueId> listed_;

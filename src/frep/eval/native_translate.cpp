@@ -194,9 +194,10 @@ void call_on_floats(const void* context, void* block) {
     call_meaning(*static_cast<const CallContext*>(context), static_cast<float*>(block));
 }
 
-Translation translate(const ClauseTape& tape, bool single, std::span<const math::Interval> domain,
-                      std::uint32_t lanes) {
-    Translation made{StepList(single), {}, {}, no_value};
+Translation translate(const ClauseTape& tape, bool single, bool wide,
+                      std::span<const math::Interval> domain) {
+    Translation made{StepList(single, wide), {}, {}, no_value};
+    const std::uint32_t lanes = (wide ? 64 : 32) / (single ? 4 : 8);
     if (single) {
         Translator<float>(tape, made, lanes).run(domain);
     } else {

@@ -27,10 +27,9 @@ struct Translation {
     ValueId root = no_value;
 };
 
-/// `domain`: a range for each coordinate where the code will be run, or nothing: then any number, and NaN.
-/// `lanes`: numbers of a vector.
-Translation translate(const ClauseTape& tape, bool single, std::span<const math::Interval> domain,
-                      std::uint32_t lanes);
+/// `wide`: for AVX-512. `domain`: a range for each coordinate where the code will be run, or nothing: then
+/// any number, and NaN.
+Translation translate(const ClauseTape& tape, bool single, bool wide, std::span<const math::Interval> domain);
 
 /// The helpers that native code calls (native_writer.h).
 void patch_doubles_1(const void* function, unsigned mask, void* block);

@@ -1,4 +1,6 @@
 // Implementation of native_writer.h: the places of values while a function is written.
+#if defined(FREP_HAS_JIT)
+
 #include "frep/eval/native_writer.h"
 
 #include <algorithm>
@@ -70,7 +72,7 @@ std::uint32_t FunctionWriter::take(Class c) {
     std::uint32_t best = 32, furthest = 0;
     for (std::uint32_t r = 0; r < 32; ++r) {
         const ValueId v = held_[c][r];
-        if (v == no_value || (locked_[c] >> r & 1) != 0) continue;
+        if (v == no_value || ((locked_[c] | (c == vectors ? pinned_ : 0)) >> r & 1) != 0) continue;
         // What need not be written back may go a little earlier.
         const std::uint32_t use = homes_[v].next_use;
         const std::uint32_t rank = homes_[v].given || homes_[v].slot != no_slot ? use + use / 16 : use;
@@ -116,6 +118,7 @@ void FunctionWriter::hold(Class c, std::uint32_t reg, ValueId v) {
 
 void FunctionWriter::release(ValueId v) {
     Home& home = homes_[v];
+    if (home.reg != nowhere && is_constant(v) && (pinned_ >> home.reg & 1) != 0) return;
     if (home.reg != nowhere) {
         const Class c = class_of(v);
         held_[c][static_cast<std::size_t>(home.reg)] = no_value;
@@ -146,7 +149,9 @@ asmjit::Operand FunctionWriter::anywhere(ValueId v, std::uint32_t following) {
     const Home& home = homes_[v];
     if (home.reg != nowhere) return vector(in_register(v));
     const bool scalar = home.given && !is_constant(v) && plan_.sources[home.source].scalar;
-    const bool again = following != never && free_[vectors] != 0 && !is_constant(v);
+    constexpr std::uint32_t near = 64;
+    const bool again = following != never && free_[vectors] != 0 && !is_constant(v) &&
+                       (home.given || following - current_ < near);
     if ((scalar && !wide_) || again) return vector(in_register(v));
     return memory_of(v);
 }
@@ -179,15 +184,66 @@ void FunctionWriter::spill_everything() {
             if (held_[c][r] != no_value) evict(c, r);
 }
 
+/// Vectors that live at one time, constants aside.
+std::uint32_t FunctionWriter::most_alive() const {
+    const auto& steps = list_.steps();
+    std::uint32_t alive = 0, most = 0;
+    for (std::uint32_t i = 0; i < steps.size(); ++i) {
+        if (!live_[i] || is_constant(i)) continue;
+        if (class_of(i) == vectors) most = std::max(most, ++alive);
+        if (homes_[i].given) continue;
+        const auto in = list_.operands_of(steps[i]);
+        for (std::size_t k = 0; k < in.size(); ++k) {
+            // the last of several uses of one value by this step
+            const bool again =
+                std::find(in.begin() + static_cast<std::ptrdiff_t>(k) + 1, in.end(), in[k]) != in.end();
+            if (following(i, static_cast<int>(k)) == never && !again && !is_constant(in[k]) &&
+                class_of(in[k]) == vectors)
+                --alive;
+        }
+    }
+    return most;
+}
+
+/// Registers that would stand idle get constants which instructions cannot read from memory.
+void FunctionWriter::pin_constants() {
+    const auto& steps = list_.steps();
+    std::vector<std::pair<std::uint32_t, ValueId>> uses;  // count, constant
+    std::vector<std::uint32_t> count_of(steps.size(), 0);
+    for (std::uint32_t i = 0; i < steps.size(); ++i) {
+        if (!live_[i] || homes_[i].given) continue;
+        if (steps[i].op == StepOp::call) return;  // no register survives it
+        const Step& step = steps[i];
+        if (step.op == StepOp::choose && is_constant(step.in[2])) ++count_of[step.in[2]];
+        const bool ordered = step.op == StepOp::subtract || step.op == StepOp::divide ||
+                             step.op == StepOp::lesser || step.op == StepOp::greater;
+        if (ordered && is_constant(step.in[0])) ++count_of[step.in[0]];
+    }
+    for (ValueId v = 0; v < steps.size(); ++v)
+        if (count_of[v] != 0) uses.emplace_back(count_of[v], v);
+    std::sort(uses.begin(), uses.end(), [](const auto& a, const auto& b) {
+        return a.first != b.first ? a.first > b.first : a.second < b.second;
+    });
+    constexpr std::uint32_t spare = 1;
+    const std::uint32_t all = wide_ ? 32 : 16, taken = most_alive() + spare;
+    for (std::size_t k = 0; k < uses.size() && taken + k < all; ++k) {
+        const std::uint32_t reg = in_register(uses[k].second);
+        pinned_ |= 1u << reg;
+    }
+    locked_ = {};
+}
+
 void FunctionWriter::write() {
     find_uses();
     enter();
     check_domain();
     for (std::uint32_t i = 0; i < list_.steps().size(); ++i)
-        if (live_[i] && !homes_[i].given) write_step(i);
+        if (live_[i] && !homes_[i].given) write_step(current_ = i);
     store_targets();
     advance();
     leave();
 }
 
 }  // namespace frep::native
+
+#endif  // FREP_HAS_JIT

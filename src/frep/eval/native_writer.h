@@ -69,6 +69,8 @@ class CodeWriter : public asmjit::ErrorHandler {
     bool finish(std::vector<std::uint8_t>& bytes, std::vector<std::size_t>& offsets);
     /// Bytes of workspace that the functions need.
     std::size_t workspace() const { return workspace_; }
+    /// Bytes of instructions; known after finish().
+    std::size_t code_bytes() const { return code_bytes_; }
     /// Instructions so far.
     std::size_t instructions() const { return instructions_; }
 
@@ -81,11 +83,14 @@ class CodeWriter : public asmjit::ErrorHandler {
     friend class FunctionWriter;
 
     asmjit::x86::Mem constant_at(ValueId v);
+    asmjit::x86::Mem broadcast_at(std::int32_t place) const;
     asmjit::x86::Mem ones();
     asmjit::x86::Mem one();
     void emit(asmjit::InstId id, const asmjit::Operand_& a = asmjit::Operand(),
               const asmjit::Operand_& b = asmjit::Operand(), const asmjit::Operand_& c = asmjit::Operand(),
               const asmjit::Operand_& d = asmjit::Operand());
+
+    static constexpr std::int32_t near_constants = 128;
 
     const StepList& list_;
     bool wide_;  ///< AVX-512
@@ -98,7 +103,7 @@ class CodeWriter : public asmjit::ErrorHandler {
     std::vector<std::uint32_t> place_of_constant_;  ///< by value
     std::uint32_t place_of_ones_ = 0, place_of_one_ = 0;
     std::vector<asmjit::Label> functions_;
-    std::size_t workspace_ = 0, instructions_ = 0;
+    std::size_t workspace_ = 0, instructions_ = 0, code_bytes_ = 0;
     bool failed_ = false;
 };
 
@@ -115,7 +120,7 @@ class FunctionWriter {
     /// Workspace in bytes: r, x, y of a patch; all registers; operands of calls; then the slots.
     static constexpr std::size_t patch_area = 0, save_area = 3 * 64, mask_area = save_area + 32 * 64,
                                  call_area = mask_area + 64;
-    static constexpr std::uint32_t pointer_registers = 11, safe_pointers = 3;
+    static constexpr std::uint32_t pointer_registers = 10, safe_pointers = 3;
     enum Class : std::uint8_t { vectors, masks };
 
     struct Home {
@@ -150,6 +155,8 @@ class FunctionWriter {
         return following_[first_following_[index] + static_cast<std::uint32_t>(k)];
     }
     void spill_everything();
+    std::uint32_t most_alive() const;
+    void pin_constants();
 
     // native_emit.cpp: instructions
     void enter();
@@ -165,6 +172,7 @@ class FunctionWriter {
     void write_rare(const Rare& rare);
     void store_targets();
     void advance();
+    void point_at_constants();
     template <class Arguments>
     void call_outside(const void* function, Arguments arguments);
     std::size_t pointers_at_risk() const;
@@ -185,6 +193,8 @@ class FunctionWriter {
     std::vector<bool> live_;
     std::array<std::array<ValueId, 32>, 2> held_{};
     std::array<std::uint32_t, 2> free_{}, locked_{};
+    std::uint32_t pinned_ = 0;   ///< vector registers that hold constants throughout
+    std::uint32_t current_ = 0;  ///< the step under way
     std::vector<std::int32_t> free_slots_;
     std::int32_t slots_ = 0;
     std::vector<Rare> rare_;      ///< written behind the loop
