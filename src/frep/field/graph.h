@@ -58,6 +58,14 @@ class Graph {
     /// A region with its arguments (guard first); the graph shares ownership.
     NodeId make_region(std::shared_ptr<const Region> region, std::span<const NodeId> arguments);
 
+    /// Node `id` of graph `from`, made here on `arguments`: nodes of this graph, one for each of its own.
+    /// `block_names` remembers the blocks that came along: empty at first, one for all calls with `from`.
+    NodeId make_as(const Graph& from, NodeId id, std::span<const NodeId> arguments,
+                   std::vector<std::uint32_t>& block_names);
+
+    /// Room for `nodes` nodes with two arguments each, so that making them moves nothing.
+    void reserve(std::size_t nodes);
+
     std::size_t size() const { return nodes_.size(); }
     const Node& node(NodeId id) const { return nodes_[id]; }
     std::span<const NodeId> arguments(NodeId id) const {
@@ -108,7 +116,8 @@ class Graph {
     double evaluate(Op op, std::span<const NodeId> arguments, std::uint32_t payload) const;
     std::size_t hash(Op op, std::span<const NodeId> arguments, std::uint32_t payload) const;
     bool same(NodeId id, Op op, std::span<const NodeId> arguments, std::uint32_t payload) const;
-    void grow_table();
+    void build_table(std::size_t slots);
+    NodeId append(Op op, std::span<const NodeId> arguments, std::uint32_t payload, std::uint8_t flags);
     std::uint32_t intern_block(std::vector<double> values);
 
     std::vector<Node> nodes_;
@@ -120,7 +129,7 @@ class Graph {
     std::vector<std::vector<double>> blocks_;
     std::unordered_multimap<std::uint64_t, std::uint32_t> block_index_;  ///< hash of a block -> its number
     std::vector<std::shared_ptr<const Region>> regions_;
-    std::vector<NodeId> table_;  ///< open addressing; empty = no_node
+    std::vector<NodeId> table_;  ///< open addressing, free = no_node; made when a node is looked up
     std::vector<double> parameters_;
     Span origin_;
     bool over_limit_ = false;

@@ -62,20 +62,23 @@ std::vector<double> Model::complete_parameters(std::size_t object, std::vector<d
 }
 
 std::optional<lang::Lowered> Model::lower(std::size_t object, const std::vector<double>& parameters,
-                                          Diagnostics& diagnostics) const {
+                                          Diagnostics& diagnostics, bool lift) const {
     if (!ok()) {
         diagnostics.append(diagnostics_);
         return std::nullopt;
     }
+    std::optional<lang::Lowered> out;
     if (field_) {
-        lang::Lowered out;
-        out.field = *field_;
-        out.operations_before = field_->graph->size();
-        return out;
+        out.emplace();
+        out->field = *field_;
+        out->operations_before = field_->graph->size();
+    } else {
+        const lang::LowerOptions options{.parameters = complete_parameters(object, parameters),
+                                         .read_file = read_file_};
+        out = lang::lower(*program_, object, options, diagnostics);
     }
-    const lang::LowerOptions options{.parameters = complete_parameters(object, parameters),
-                                     .read_file = read_file_};
-    return lang::lower(*program_, object, options, diagnostics);
+    if (out && lift) out->field = lift_r_functions(out->field, &out->lifted);
+    return out;
 }
 
 Result<Field> Model::field(std::string_view name, std::vector<double> parameters) const {

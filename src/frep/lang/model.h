@@ -46,12 +46,13 @@ class Model {
     std::vector<double> complete_parameters(std::size_t object, std::vector<double> given) const;
 
     /// The field of an object with all that the lowering found out. Nothing when an error was added to
-    /// `diagnostics`.
+    /// `diagnostics`. With `lift`, set operations that the text spells out by sums and roots become
+    /// operations (field/lift.h).
     std::optional<lang::Lowered> lower(std::size_t object, const std::vector<double>& parameters,
-                                       Diagnostics& diagnostics) const;
+                                       Diagnostics& diagnostics, bool lift = true) const;
 
-    /// The field of an object, as find_object() finds it. Errors: invalid_argument for an unknown object,
-    /// invalid_model with the rendered diagnostics.
+    /// The field of an object, as find_object() finds it, lifted. Errors: invalid_argument for an unknown
+    /// object, invalid_model with the rendered diagnostics.
     Result<Field> field(std::string_view object = {}, std::vector<double> parameters = {}) const;
 
   private:
