@@ -62,6 +62,7 @@ void Scheduler::label() {
 void Scheduler::walk(std::span<const NodeId> roots) {
     constexpr std::uint64_t leave = std::uint64_t{1} << 32;
     order_.clear();
+    order_.reserve(nodes_.size());
     for (NodeId root : roots) {
         stack_.assign(1, root);
         while (!stack_.empty()) {

@@ -100,8 +100,17 @@ void Graph::reserve(std::size_t nodes) {
     arguments_.reserve(2 * nodes);
     flags_.reserve(nodes);
     origins_.reserve(nodes);
-    bound_.reserve(nodes);
     if (table_.size() < 2 * nodes) build_table(std::bit_ceil(2 * nodes));
+}
+
+double Graph::known_value(NodeId id) const {
+    if (nodes_[id].op == Op::constant) return constant_of(id);
+    return id < bound_.size() ? bound_[id] : not_a_number;
+}
+
+void Graph::know(NodeId id, double value) {
+    if (bound_.size() <= id) bound_.resize(std::size_t{id} + 1, not_a_number);
+    bound_[id] = value;
 }
 
 NodeId Graph::append(Op op, std::span<const NodeId> args, std::uint32_t payload, std::uint8_t flags) {
@@ -111,7 +120,6 @@ NodeId Graph::append(Op op, std::span<const NodeId> args, std::uint32_t payload,
     for (const NodeId argument : args) arguments_.push_back(argument);
     flags_.push_back(flags);
     origins_.push_back(origin_);
-    bound_.push_back(not_a_number);
     return id;
 }
 
@@ -133,10 +141,7 @@ NodeId Graph::constant(double value) {
     const auto payload = static_cast<std::uint32_t>(constants_.size() - 1);
     const std::size_t before = nodes_.size();
     const NodeId id = insert(Op::constant, {}, payload, 0);
-    if (nodes_.size() == before)
-        constants_.pop_back();
-    else
-        bound_[id] = value;
+    if (nodes_.size() == before) constants_.pop_back();
     return id;
 }
 
@@ -147,7 +152,7 @@ NodeId Graph::coordinate(int index) {
 NodeId Graph::parameter(int index) {
     const NodeId id = insert(Op::parameter, {}, static_cast<std::uint32_t>(index), parameter_flag);
     const auto i = static_cast<std::size_t>(index);
-    if (!over_limit_) bound_[id] = i < parameters_.size() ? parameters_[i] : 0.0;
+    if (!over_limit_) know(id, i < parameters_.size() ? parameters_[i] : 0.0);
     return id;
 }
 
@@ -167,7 +172,7 @@ double Graph::evaluate(Op op, std::span<const NodeId> args, std::uint32_t payloa
     std::vector<double> many(args.size() > few ? args.size() : 0);
     const std::span<double> values =
         args.size() > few ? std::span(many) : std::span(direct).first(args.size());
-    for (std::size_t i = 0; i < args.size(); ++i) values[i] = bound_[args[i]];
+    for (std::size_t i = 0; i < args.size(); ++i) values[i] = known_value(args[i]);
     std::span<const double> block;
     if (info(op).kind == OpKind::block && payload) block = blocks_[payload - 1];
     return meaning<double>(op, std::span<const double>(values), block);
@@ -249,7 +254,7 @@ NodeId Graph::make(Op op, std::span<const NodeId> given, std::uint32_t payload) 
     const std::size_t before = nodes_.size();
     const NodeId id = insert(op, args, payload, flags);
     if (nodes_.size() > before && !(flags & point_flag) && info(op).kind != OpKind::leaf)
-        bound_[id] = evaluate(op, args, payload);
+        know(id, evaluate(op, args, payload));
     return id;
 }
 
@@ -291,12 +296,12 @@ NodeId Graph::make_region(std::shared_ptr<const Region> region, std::span<const 
 
 std::optional<double> Graph::constant_value(NodeId id) const {
     if (flags_[id] != 0) return std::nullopt;
-    return bound_[id];
+    return known_value(id);
 }
 
 std::optional<double> Graph::bound_value(NodeId id) const {
     if (flags_[id] & point_flag) return std::nullopt;
-    return bound_[id];
+    return known_value(id);
 }
 
 void Graph::truncate(std::size_t size) {
@@ -305,7 +310,7 @@ void Graph::truncate(std::size_t size) {
     nodes_.resize(size);
     flags_.resize(size);
     origins_.resize(size);
-    bound_.resize(size);
+    bound_.resize(std::min(size, bound_.size()));
     table_.clear();
     over_limit_ = false;
 }
@@ -353,7 +358,7 @@ Graph Graph::copy_of(const std::vector<bool>& needed, std::span<NodeId> renamed)
         }
         out.origin_ = origins_[id];
         renamed[id] = out.append(n.op, args, payload, flags_[id]);  // equal nodes were one before
-        out.bound_[renamed[id]] = bound_[id];
+        if (!depends_on_point(id) && n.op != Op::constant) out.know(renamed[id], known_value(id));
     }
     return out;
 }

@@ -117,6 +117,8 @@ class Graph {
     std::size_t hash(Op op, std::span<const NodeId> arguments, std::uint32_t payload) const;
     bool same(NodeId id, Op op, std::span<const NodeId> arguments, std::uint32_t payload) const;
     void build_table(std::size_t slots);
+    double known_value(NodeId id) const;
+    void know(NodeId id, double value);
     NodeId append(Op op, std::span<const NodeId> arguments, std::uint32_t payload, std::uint8_t flags);
     std::uint32_t intern_block(std::vector<double> values);
 
@@ -124,7 +126,8 @@ class Graph {
     std::vector<NodeId> arguments_;
     std::vector<std::uint8_t> flags_;
     std::vector<Span> origins_;
-    std::vector<double> bound_;  ///< value where the node does not depend on the point
+    std::vector<double> bound_;  ///< by node, as far as it goes: value of an operation or parameter that does
+                                 ///< not depend on the point
     std::vector<double> constants_;
     std::vector<std::vector<double>> blocks_;
     std::unordered_multimap<std::uint64_t, std::uint32_t> block_index_;  ///< hash of a block -> its number

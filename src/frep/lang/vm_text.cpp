@@ -127,31 +127,38 @@ class NameTable {
     /// The node of `name`; nothing when it is unknown.
     const NodeId* find(const Word& name) const {
         const Slot& slot = slots_[place(name)];
-        return slot.length == 0 ? nullptr : &slot.node;
+        return slot.end == 0 ? nullptr : &slot.node;
     }
     /// Adds a name; false when it is there already. There is room for the expected number of names.
     bool add(const Word& name, NodeId node) {
         Slot& slot = slots_[place(name)];
-        if (slot.length != 0) return false;
-        slot = {static_cast<std::uint32_t>(name.text.data() - text_.data()),
-                static_cast<std::uint32_t>(name.text.size()), static_cast<std::uint32_t>(name.hash), node};
+        if (slot.end != 0) return false;
+        const char* const end = name.text.data() + name.text.size();
+        slot = {static_cast<std::uint32_t>(end - text_.data()), node};
         return true;
     }
 
   private:
     struct Slot {
-        std::uint32_t begin = 0, length = 0;  ///< length 0: free
-        std::uint32_t hash = 0;
+        std::uint32_t end = 0;  ///< where the name ends in the text; 0: free
         NodeId node = 0;
     };
 
     std::size_t place(const Word& name) const {
-        const auto hash = static_cast<std::uint32_t>(name.hash);
-        std::size_t at = hash & (slots_.size() - 1);
-        for (; slots_[at].length != 0; at = (at + 1) & (slots_.size() - 1))
-            if (slots_[at].hash == hash && text_.substr(slots_[at].begin, slots_[at].length) == name.text)
-                break;
+        std::size_t at = name.hash & (slots_.size() - 1);
+        while (slots_[at].end != 0 && !is_at(slots_[at].end, name.text)) at = (at + 1) & (slots_.size() - 1);
         return at;
+    }
+
+    /// True when the word of the text that ends at `end` is `name`. Words that differ mostly do so near
+    /// their ends.
+    bool is_at(std::size_t end, std::string_view name) const {
+        if (name.size() > end) return false;
+        const std::size_t begin = end - name.size();
+        for (std::size_t i = name.size(); i-- > 0;)
+            if (text_[begin + i] != name[i]) return false;
+        return begin == 0 || is_blank(text_[begin - 1]) || text_[begin - 1] == '\n' ||
+               text_[begin - 1] == '\r';
     }
 
     std::string_view text_;
