@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <mutex>
 
 #include "frep/base/parallel.h"
 #include "frep/eval/batch_vm.h"
 #include "frep/eval/prune.h"
+#include "frep/trace/tile_worker.h"
 
 namespace frep {
 namespace {
@@ -17,8 +17,6 @@ constexpr int leaf_side = 16;   ///< pixels along the side of the smallest tile
 constexpr int split = 4;        ///< a tile has split * split children: the lanes of one pass
 constexpr int most_levels = 8;  ///< leaf_side * split^(most_levels - 1) is beyond the largest picture
 constexpr std::size_t leaf_pixels = leaf_side * leaf_side;
-/// Cut tapes of leaves with more clauses get packed rows.
-constexpr std::size_t long_tape = 24;
 
 /// A square of pixels; the picture's edge may cut it.
 struct PixelTile {
@@ -36,11 +34,8 @@ struct Scene {
     const SignPictureOptions* options = nullptr;
     SignPixel* pixels = nullptr;
     int width = 0, height = 0;
-    std::vector<double> x, y;                 ///< middles of the columns and rows
-    std::vector<Real> near_x, near_y;         ///< the same, rounded
-    std::array<int, max_coordinates> from{};  ///< by coordinate of the model: 0 = x, 1 = y, 2 = fixed
-    std::array<double, max_coordinates> fixed{};
-    std::size_t coordinates = 0;
+    PartMiddles<Real> x, y;
+    CoordinateSources sources;  ///< axis 0 = to the right, 1 = up
 
     bool block_of(const PixelTile& tile, PixelBlock& out) const {
         out = {tile.x, tile.y, std::min(tile.side, width - tile.x), std::min(tile.side, height - tile.y)};
@@ -56,10 +51,7 @@ class Worker {
         scene_ = &scene;
         point_operations_ = 0;
         operations_before_ = pruner_.tile_operations();
-        for (std::size_t i = 0; i < scene.coordinates; ++i) {
-            if (scene.from[i] == 2) fixed_[i].assign(most_points, static_cast<Real>(scene.fixed[i]));
-            columns_[i] = scene.from[i] == 0 ? x_.data() : scene.from[i] == 1 ? y_.data() : fixed_[i].data();
-        }
+        points_.prepare(scene.sources, most_points);
     }
     /// Operations since begin().
     std::size_t tile_operations() const { return pruner_.tile_operations() - operations_before_; }
@@ -122,16 +114,10 @@ class Worker {
     static constexpr std::size_t most_points = leaf_pixels * tile_lanes;
 
     void set_box(const PixelBlock& block, int lane, BoxLanes& boxes) const {
-        const auto k = static_cast<std::size_t>(lane);
-        const auto left = static_cast<std::size_t>(block.x), top = static_cast<std::size_t>(block.y);
-        const auto right = static_cast<std::size_t>(block.x + block.width - 1);
-        const auto bottom = static_cast<std::size_t>(block.y + block.height - 1);
-        for (std::size_t i = 0; i < scene_->coordinates; ++i) {
-            boxes.lo[i][k] = boxes.hi[i][k] = scene_->fixed[i];
-            if (scene_->from[i] == 0) boxes.lo[i][k] = scene_->x[left], boxes.hi[i][k] = scene_->x[right];
-            // rows run from top to bottom, y from bottom to top
-            if (scene_->from[i] == 1) boxes.lo[i][k] = scene_->y[bottom], boxes.hi[i][k] = scene_->y[top];
-        }
+        // rows run from top to bottom, y from bottom to top
+        const int right = block.x + block.width - 1, bottom = block.y + block.height - 1;
+        scene_->sources.set_box({scene_->x[block.x], scene_->y[bottom], 0},
+                                {scene_->x[right], scene_->y[block.y], 0}, lane, boxes);
     }
 
     SignPixel* row(int x, int y) const {
@@ -156,7 +142,7 @@ class Worker {
                 if ((children.open >> k & 1u) != 0 && of == number) add_leaf(children.tiles[lane], *tape);
             }
             if (blocks_ == 0) continue;
-            if (tape->clauses.size() > long_tape) {
+            if (tape->clauses.size() > long_leaf_tape) {
                 // the parent's tape is needed again as it is
                 if (number < 0) packed_ = parent;
                 ClauseTape& packed = number < 0 ? packed_ : cut.tapes[static_cast<std::size_t>(number)];
@@ -174,24 +160,24 @@ class Worker {
         if (blocks_ == waiting_.size()) evaluate(tape);
         waiting_[blocks_++] = block;
         for (int y = 0; y < block.height; ++y) {
-            std::copy_n(scene_->near_x.data() + block.x, block.width, x_.data() + points_);
-            std::fill_n(y_.data() + points_, block.width,
-                        scene_->near_y[static_cast<std::size_t>(block.y + y)]);
-            points_ += static_cast<std::size_t>(block.width);
+            std::copy_n(scene_->x.rounded.data() + block.x, block.width, points_.axis[0].data() + count_);
+            std::fill_n(points_.axis[1].data() + count_, block.width,
+                        scene_->y.rounded[static_cast<std::size_t>(block.y + y)]);
+            count_ += static_cast<std::size_t>(block.width);
         }
     }
 
     void evaluate(const ClauseTape& tape) {
         if (blocks_ == 0) return;
-        vm_.values(tape, std::span(columns_.data(), scene_->coordinates), points_, values_.data());
-        point_operations_ += points_ * tape.clauses.size();
+        vm_.values(tape, points_.coordinates(), count_, values_.data());
+        point_operations_ += count_ * tape.clauses.size();
         const Real* value = values_.data();
         for (std::size_t i = 0; i < blocks_; ++i) {
             const PixelBlock& block = waiting_[i];
             for (int y = 0; y < block.height; ++y, value += block.width)
                 store(value, static_cast<std::size_t>(block.width), row(block.x, block.y + y));
         }
-        blocks_ = points_ = 0;
+        blocks_ = count_ = 0;
     }
 
     void store(const Real* values, std::size_t count, SignPixel* to) const {
@@ -210,29 +196,19 @@ class Worker {
     std::size_t point_operations_ = 0;
     ClauseTape packed_;
     std::array<PixelBlock, tile_lanes> waiting_;  ///< leaves of the batch
-    std::size_t blocks_ = 0, points_ = 0;
-    std::vector<Real> x_ = std::vector<Real>(most_points), y_ = std::vector<Real>(most_points);
+    std::size_t blocks_ = 0, count_ = 0;
+    PointBatch<Real> points_;
     std::vector<Real> values_ = std::vector<Real>(most_points);
-    std::array<std::vector<Real>, max_coordinates> fixed_;
-    std::array<const Real*, max_coordinates> columns_{};
 };
 
 Status check(const ClauseTape& tape, const AxisMap& map, const SignPictureOptions& o) {
-    const auto bad = [](const char* message) { return Error{ErrorKind::invalid_argument, message}; };
-    constexpr int most_pixels = 16384;
-    if (o.width < 1 || o.width > most_pixels || o.height < 1 || o.height > most_pixels)
-        return bad("a side of the picture is not 1 to 16384 pixels");
-    if (!(o.part.width() > 0 && o.part.height() > 0) || !std::isfinite(o.part.width() + o.part.height()) ||
-        !std::isfinite(o.part.min.x + o.part.min.y + o.plane.at))
-        return bad("the part of the plane is empty or not finite");
-    if (map.coordinates.size() != static_cast<std::size_t>(tape.data->coordinates))
-        return bad("the map has not one entry for each coordinate");
-    return {};
+    if (!std::isfinite(o.part.min.x + o.part.min.y + o.plane.at))
+        return Error{ErrorKind::invalid_argument, "the part is empty or not finite"};
+    return check_tiles(tape, map, {o.width, o.height}, {o.part.width(), o.part.height()});
 }
 
 template <class Real>
-void set_scene(const ClauseTape& tape, const AxisMap& map, const SignPictureOptions& o, SignPicture& out,
-               Scene<Real>& scene) {
+void set_scene(const AxisMap& map, const SignPictureOptions& o, SignPicture& out, Scene<Real>& scene) {
     out.width = o.width;
     out.height = o.height;
     out.pixels.resize(static_cast<std::size_t>(o.width) * static_cast<std::size_t>(o.height));
@@ -240,23 +216,13 @@ void set_scene(const ClauseTape& tape, const AxisMap& map, const SignPictureOpti
     scene.pixels = out.pixels.data();
     scene.width = o.width;
     scene.height = o.height;
-    const auto middles = [](double from, double step, int count, std::vector<double>& exact,
-                            std::vector<Real>& rounded) {
-        exact.resize(static_cast<std::size_t>(count));
-        rounded.resize(static_cast<std::size_t>(count));
-        for (std::size_t i = 0; i < exact.size(); ++i) {
-            exact[i] = from + (static_cast<double>(i) + 0.5) * step;
-            rounded[i] = static_cast<Real>(exact[i]);
-        }
-    };
-    middles(o.part.min.x, o.part.width() / o.width, o.width, scene.x, scene.near_x);
-    middles(o.part.max.y, -o.part.height() / o.height, o.height, scene.y, scene.near_y);
-    scene.coordinates = static_cast<std::size_t>(tape.data->coordinates);
-    for (std::size_t i = 0; i < scene.coordinates; ++i) {
-        const MappedCoordinate& c = map.coordinates[i];
-        scene.from[i] = c.axis == o.plane.right ? 0 : c.axis == o.plane.up ? 1 : 2;
-        scene.fixed[i] = c.axis < 0 ? c.value : o.plane.at;
-    }
+    scene.x.set(o.part.min.x, o.part.width() / o.width, o.width);
+    scene.y.set(o.part.max.y, -o.part.height() / o.height, o.height);
+    std::array<int, 3> axes{};
+    axes.fill(CoordinateSources::fixed);
+    axes[static_cast<std::size_t>(o.plane.right)] = 0;
+    axes[static_cast<std::size_t>(o.plane.up)] = 1;
+    scene.sources.set(map, axes, o.plane.at);
 }
 
 }  // namespace
@@ -267,33 +233,7 @@ struct SignPainter<Real>::Workers {
     CutResult first_cut;  ///< of the whole picture
     typename Worker<Real>::Children first_children;
     ClauseTape packed;
-    std::vector<std::unique_ptr<Worker<Real>>> all;
-    std::vector<Worker<Real>*> free;
-    std::mutex mutex;
-
-    /// A worker that nobody has. Which one it is changes no pixel.
-    Worker<Real>& take() {
-        const std::lock_guard lock(mutex);
-        if (free.empty()) {
-            all.push_back(std::make_unique<Worker<Real>>());
-            all.back()->begin(scene);
-            return *all.back();
-        }
-        Worker<Real>& worker = *free.back();
-        free.pop_back();
-        return worker;
-    }
-    void give(Worker<Real>& worker) {
-        const std::lock_guard lock(mutex);
-        free.push_back(&worker);
-    }
-    void begin() {
-        free.clear();
-        for (const auto& worker : all) {
-            worker->begin(scene);
-            free.push_back(worker.get());
-        }
-    }
+    WorkerPool<Worker<Real>> pool;
 };
 
 template <class Real>
@@ -310,12 +250,12 @@ Status SignPainter<Real>::paint(const ClauseTape& tape, const AxisMap& map, cons
                                 const Job& job, SignPicture& out) {
     if (const Status status = check(tape, map, options); !status) return status;
     Workers& w = *workers_;
-    set_scene(tape, map, options, out, w.scene);
-    w.begin();
+    set_scene(map, options, out, w.scene);
+    w.pool.begin([&w](Worker<Real>& worker) { worker.begin(w.scene); });
     PixelTile root{0, 0, leaf_side * split};
     while (root.side < std::max(options.width, options.height)) root.side *= split;
     const int side = root.side / split;
-    Worker<Real>& first = w.take();
+    Worker<Real>& first = w.pool.take();
     if (options.prune) {
         first.cut(root, tape, w.first_cut, w.first_children);
     } else {
@@ -323,11 +263,11 @@ Status SignPainter<Real>::paint(const ClauseTape& tape, const AxisMap& map, cons
         pack_rows(w.packed);
         w.first_children.open = (1u << split * split) - 1;
     }
-    w.give(first);
+    w.pool.give(first);
     const bool done = options.prune && side == leaf_side;
     parallel_for(job, done ? 0 : split * split, [&](std::size_t i) {
         if ((w.first_children.open >> i & 1u) == 0) return;
-        Worker<Real>& worker = w.take();
+        Worker<Real>& worker = w.pool.take();
         if (options.prune) {
             const auto& tile_tape = Worker<Real>::tape_for(tape, w.first_cut, static_cast<int>(i));
             worker.descend(w.first_children.tiles[i], tile_tape, 0);
@@ -335,11 +275,11 @@ Status SignPainter<Real>::paint(const ClauseTape& tape, const AxisMap& map, cons
             const int k = static_cast<int>(i);
             worker.evaluate_tile({k % split * side, k / split * side, side}, w.packed);
         }
-        w.give(worker);
+        w.pool.give(worker);
     });
     if (job.cancelled()) return Error{ErrorKind::cancelled, "cancelled"};
     out.tile_operations = out.point_operations = 0;
-    for (const auto& worker : w.all) {
+    for (const auto& worker : w.pool.all()) {
         out.tile_operations += worker->tile_operations();
         out.point_operations += worker->point_operations();
     }
