@@ -7,7 +7,12 @@ rounded to binary64. Long constants (pi/2, ln 2, 2/pi) come from series in exact
 parts with trailing zeros. Checked by tests/unit/math/kernels_test.cpp. Use, then clang-format:
 
     tools/kernel_coefficients.py > src/frep/math/coefficients.h
+    tools/kernel_coefficients.py single > src/frep/math/single/coefficients.h
+
+The second is for binary32: the same with larger bounds, rounded to that format.
 """
+import struct
+import sys
 from decimal import Decimal, getcontext
 from fractions import Fraction
 
@@ -78,9 +83,14 @@ def factorial(n):
     return 1 if n < 2 else n * factorial(n - 1)
 
 
-def polynomial(name, meaning, f, low, high, bound):
+def single(x):
+    """x rounded to binary32."""
+    return struct.unpack("f", struct.pack("f", float(x)))[0]
+
+
+def polynomial(name, meaning, f, low, high, bound, rounded=float):
     low, high = Decimal(low), Decimal(high)
-    for degree in range(3, 24):
+    for degree in range(2, 24):
         poly = interpolate(f, low, high, degree)
         worst = Decimal(0)
         for i in range(201):
@@ -92,7 +102,7 @@ def polynomial(name, meaning, f, low, high, bound):
         if worst < Decimal(bound):
             break
     print(f"/// {meaning}, for z in [{low}, {high}]; error {worst:.1e}.")
-    body = ", ".join(float(c).hex() for c in poly)
+    body = ", ".join(rounded(c).hex() for c in poly)
     print(f"inline constexpr double {name}[] = {{{body}}};\n")
 
 
@@ -106,13 +116,41 @@ def part(x, bits):
     return Fraction(int(x * Fraction(2) ** exponent)) / Fraction(2) ** exponent
 
 
-def parts(names, meaning, x, sizes):
+def parts(names, meaning, x, sizes, rounded=float):
     print(f"/// {meaning}")
     for name, bits in zip(names, sizes):
-        p = part(x, bits) if bits < 53 else Fraction(float(x))
+        p = part(x, bits) if bits not in (24, 53) else Fraction(rounded(x))
         print(f"inline constexpr double {name} = {float(p).hex()};")
         x -= p
     print()
+
+
+def main_single():
+    print("// The constants of the kernels of binary32, all of them floats. Written by")
+    print("// tools/kernel_coefficients.py (method there). Do not edit. Checked by")
+    print("// tests/unit/math/single_functions_test.cpp.\n#pragma once\n")
+    print('#include "frep/math/isa.h"\n\nFREP_MATH_OPEN\nnamespace single::coefficients {\n')
+    polynomial("exp_tail", "(e^z - 1 - z)/z^2", series(lambda k: Fraction(1, factorial(k + 2)), 40),
+               "-0.3470", "0.3470", "1e-7", single)
+    polynomial("artanh_tail", "2 (artanh(s)/s - 1)/z with z = s^2",
+               series(lambda k: Fraction(2, 2 * k + 3), 60), "0", "0.0295", "4e-7", single)
+    polynomial("sin_tail", "(sin(x) - x)/x^3 with z = x^2",
+               series(lambda k: Fraction((-1) ** (k + 1), factorial(2 * k + 3)), 30), "0", "0.6175", "1e-9", single)
+    polynomial("cos_tail", "(cos(x) - 1)/z with z = x^2",
+               series(lambda k: Fraction((-1) ** (k + 1), factorial(2 * k + 2)), 30), "0", "0.6175", "2e-9", single)
+    polynomial("atan_tail", "(atan(x) - x)/x^3 with z = x^2",
+               series(lambda k: Fraction((-1) ** (k + 1), 2 * k + 3), 110), "0", "0.1717", "4e-8", single)
+    parts(["half_pi_1", "half_pi_2", "half_pi_3", "half_pi_4"], "pi/2 in parts of 12, 12, 12 and 24 bits.",
+          PI / 2, [12, 12, 12, 24], single)
+    parts(["ln2_1", "ln2_2"], "ln 2 in parts of 15 and 24 bits.", LN2, [15, 24], single)
+    parts(["half_pi_hi", "half_pi_lo"], "pi/2 in two floats.", PI / 2, [24, 24], single)
+    parts(["quarter_pi_hi", "quarter_pi_lo"], "pi/4 in two floats.", PI / 4, [24, 24], single)
+    parts(["pi_hi", "pi_lo"], "pi in two floats.", PI, [24, 24], single)
+    parts(["three_quarter_pi_hi", "three_quarter_pi_lo"], "3 pi/4 in two floats.", PI * 3 / 4, [24, 24], single)
+    parts(["log2_e"], "1/ln 2.", 1 / LN2, [24], single)
+    parts(["two_over_pi"], "2/pi.", 2 / PI, [24], single)
+    parts(["tan_eighth_pi"], "tan(pi/8) = sqrt(2) - 1.", Fraction(Decimal(2).sqrt() - 1), [24], single)
+    print("}  // namespace single::coefficients\nFREP_MATH_CLOSE")
 
 
 def main():
@@ -150,4 +188,7 @@ def main():
     print("}  // namespace coefficients\nFREP_MATH_CLOSE")
 
 
-main()
+if sys.argv[1:] == ["single"]:
+    main_single()
+else:
+    main()

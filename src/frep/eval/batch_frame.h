@@ -10,20 +10,11 @@
 
 namespace frep::batch {
 
-/// Where the rows of a tape lie. Real is double or float.
-template <class Real>
-struct Rows {
-    const Real* const* leaves = nullptr;  ///< by row: constants (one element each), then coordinates
-    Real* values = nullptr;               ///< row first_value + k begins at k * stride
-    std::size_t stride = 0;               ///< numbers from one value row to the next
-    RowNumber constants = 0;              ///< rows below this one are constants
-    RowNumber first_value = 0;
-};
-
-/// One batch: the clauses and the memory to run them on.
+/// One batch: the clauses and the memory to run them on. Real is double or float.
 template <class Real>
 struct Frame {
-    Rows<Real> rows;
+    const Real* const* rows = nullptr;  ///< where every row begins; those of values may be written
+    RowNumber constants = 0;            ///< rows below this one are constants: one element for all
     const Clause* clauses = nullptr;
     std::size_t clause_count = 0;
     std::size_t numbers = 0;   ///< numbers of a row to compute: whole elements

@@ -43,38 +43,30 @@ struct Element<math::Dual<math::LanesOf<E, N>>> {
     }
 };
 
-/// An operand: `mask` 0 keeps it at its first element.
+/// An operand and its way to the next element: `step` 0 for a constant.
 template <class Real>
 struct Source {
     const Real* at;
-    std::size_t mask;
+    std::size_t step;
 };
 
-template <class Real>
-inline __attribute__((always_inline)) Source<Real> source(const Rows<Real>& rows, RowNumber row) {
-    const bool value = row >= rows.first_value;
-    const Real* const leaf = rows.leaves[value ? 0 : row];
-    const Real* const computed = rows.values + static_cast<std::size_t>(row - rows.first_value) * rows.stride;
-    return {value ? computed : leaf, row < rows.constants ? std::size_t{0} : ~std::size_t{0}};
-}
-
 template <int arity, class T, class Kernel, class Real>
-inline __attribute__((always_inline)) void loop(Kernel kernel, const Rows<Real>& rows, const RowNumber* in,
+inline __attribute__((always_inline)) void loop(Kernel kernel, Source<Real> a, Source<Real> b, Source<Real> c,
                                                 Real* out, std::size_t numbers) {
     using E = Element<T>;
     static_assert(arity >= 1 && arity <= 3);
-    const Source<Real> a = source(rows, in[0]);
-    const Source<Real> b = arity > 1 ? source(rows, in[1]) : a;
-    const Source<Real> c = arity > 2 ? source(rows, in[2]) : a;
-    for (std::size_t i = 0; i < numbers; i += E::numbers) {
-        const auto item = [i](const Source<Real>& from) { return E::load(from.at + (i & from.mask)); };
+    Real* const end = out + numbers;
+    for (; out < end; out += E::numbers) {
         if constexpr (arity == 1) {
-            E::store(kernel(item(a)), out + i);
+            E::store(kernel(E::load(a.at)), out);
         } else if constexpr (arity == 2) {
-            E::store(kernel(item(a), item(b)), out + i);
+            E::store(kernel(E::load(a.at), E::load(b.at)), out);
         } else {
-            E::store(kernel(item(a), item(b), item(c)), out + i);
+            E::store(kernel(E::load(a.at), E::load(b.at), E::load(c.at)), out);
         }
+        a.at += a.step;
+        b.at += b.step;
+        c.at += c.step;
     }
 }
 
@@ -89,6 +81,7 @@ constexpr bool has_loop(Op op, int arity, int cost) {
         case Op::log:
         case Op::sin:
         case Op::cos:
+            return true;
         case Op::log10:
         case Op::tan:
         case Op::asin:
@@ -110,23 +103,32 @@ constexpr bool has_loop(Op op, int arity, int cost) {
 template <class T>
 void run(const Frame<typename Element<T>::Real>& frame) {
     using Real = typename Element<T>::Real;
-    const Rows<Real> rows = frame.rows;
+    const Real* const* const rows = frame.rows;
+    const RowNumber constants = frame.constants;
     const std::size_t numbers = frame.numbers;
+    constexpr std::size_t step = Element<T>::numbers;
     for (std::size_t i = 0; i < frame.clause_count; ++i) {
         const Clause& clause = frame.clauses[i];
-        RowNumber in[3];
-        __builtin_memcpy(in, &clause.in, sizeof(in));
-        Real* out = rows.values + static_cast<std::size_t>(clause.out - rows.first_value) * rows.stride;
+        Real* out = const_cast<Real*>(rows[clause.out]);
         if (i + 1 == frame.clause_count && frame.last_out) out = frame.last_out;
+        if (clause.listed) {
+            frame.other(frame.owner, clause, out);
+            continue;
+        }
+        RowNumber in[3];  // row 0 where a clause has less operands
+        __builtin_memcpy(in, &clause.in, sizeof(in));
+        const Source<Real> a = {rows[in[0]], in[0] < constants ? 0 : step};
+        const Source<Real> b = {rows[in[1]], in[1] < constants ? 0 : step};
+        const Source<Real> c = {rows[in[2]], in[2] < constants ? 0 : step};
         switch (clause.op) {
 #define FREP_LOOP_leaf(name, arity, cost)
 #define FREP_LOOP_block(name, arity, cost)
-#define FREP_LOOP_plain(name, arity, cost)                                                                \
-    case Op::name:                                                                                        \
-        if constexpr (has_loop<Real>(Op::name, arity, cost)) {                                            \
-            loop<arity, T>([](const auto&... v) { return kernels::name(v...); }, rows, in, out, numbers); \
-            continue;                                                                                     \
-        }                                                                                                 \
+#define FREP_LOOP_plain(name, arity, cost)                                                               \
+    case Op::name:                                                                                       \
+        if constexpr (has_loop<Real>(Op::name, arity, cost)) {                                           \
+            loop<arity, T>([](const auto&... v) { return kernels::name(v...); }, a, b, c, out, numbers); \
+            continue;                                                                                    \
+        }                                                                                                \
         break;
 #define FREP_OP(name, kind, arity, cost, context, doc) FREP_LOOP_##kind(name, arity, cost)
 #include "frep/field/ops.def"

@@ -62,12 +62,12 @@ class BatchVm<Real>::Machine {
     void values(const ClauseTape& tape, std::span<const Real* const> coordinates, std::size_t count,
                 Real* out) {
         const FloatControl control;
-        prepare(tape, 1);
+        prepare(tape, values_);
         frame_.other = [](void* owner, const Clause& clause, Real* to) {
             Machine& machine = *static_cast<Machine*>(owner);
             machine.other_.values(machine.call_of(clause, to));
         };
-        const std::size_t batch = batch_points(tape, count, 1);
+        const std::size_t batch = batch_points(tape, count);
         lay_out(tape, batch);
         for (std::size_t start = 0; start < count; start += batch)
             values_of(tape, coordinates, start, std::min(batch, count - start), out + start);
@@ -76,13 +76,13 @@ class BatchVm<Real>::Machine {
     void gradients(const ClauseTape& tape, std::span<const Real* const> coordinates, std::size_t count,
                    Real* values, std::span<Real* const> partials) {
         const FloatControl control;
-        prepare(tape, 4);
+        prepare(tape, gradients_);
         frame_.other = [](void* owner, const Clause& clause, Real* to) {
             Machine& machine = *static_cast<Machine*>(owner);
             machine.other_.gradients(machine.call_of(clause, to));
         };
-        const std::size_t batch = batch_points(tape, count, 4);
-        lay_out(tape, 4 * batch);
+        const std::size_t batch = batch_points(tape, count);
+        lay_out(tape, batch);
         for (std::size_t start = 0; start < count; start += batch)
             for (std::size_t first = 0; first == 0 || first < partials.size(); first += 3)
                 gradients_of(tape, coordinates, {start, std::min(batch, count - start), first}, values,
@@ -90,11 +90,16 @@ class BatchVm<Real>::Machine {
     }
 
   private:
-    /// What stands in the rows below the first value row.
-    struct Leaves {
-        std::shared_ptr<const ClauseData> data;  ///< whose constants they are
-        Memory<Real> constants;
-        std::vector<const Real*> rows;
+    /// Where the rows begin, for values or for gradients; kept from call to call.
+    struct Table {
+        explicit Table(std::size_t numbers) : parts(numbers) {}
+
+        std::size_t parts;  ///< numbers of an element for each lane: 1, or 4 for gradients
+        std::shared_ptr<const ClauseData> data;  ///< whose constants stand in the first rows
+        Memory<Real> constants, memory;
+        std::vector<const Real*> rows;  ///< constants, coordinates, then as many values as have been needed
+        const Real* begin = nullptr;    ///< of the memory when the value rows were laid out
+        std::size_t stride = 0;         ///< numbers from one value row to the next
     };
     struct Pass {
         std::size_t start, points;
@@ -105,57 +110,57 @@ class BatchVm<Real>::Machine {
         return (points + code_.lanes - 1) / code_.lanes * code_.lanes;
     }
 
-    /// The constants of the tape as elements of `parts` times the lanes.
-    void prepare(const ClauseTape& tape, std::size_t parts) {
+    /// Makes the table ready for the constants of the tape.
+    void prepare(const ClauseTape& tape, Table& table) {
         tape_ = &tape;
-        leaves_ = parts == 1 ? &value_leaves_ : &gradient_leaves_;
-        const ClauseData& data = *tape.data;
-        if (leaves_->data != tape.data) fill_leaves(tape.data, parts * code_.lanes);
-        coordinates_ = static_cast<std::size_t>(data.coordinates);
-        frame_.rows.leaves = leaves_->rows.data();
-        frame_.rows.constants = static_cast<RowNumber>(data.constants.size());
-        frame_.rows.first_value = data.first_value_row();
-    }
-
-    void fill_leaves(const std::shared_ptr<const ClauseData>& data, std::size_t element) {
-        leaves_->data = data;
-        const std::size_t constants = data->constants.size();
-        Real* to = leaves_->constants.at_least(constants * element);
-        leaves_->rows.assign(std::max<std::size_t>(data->first_value_row(), 1), to);
-        for (std::size_t k = 0; k < constants; ++k, to += element) {
-            std::fill_n(to, code_.lanes, static_cast<Real>(data->constants[k]));
-            std::fill_n(to + code_.lanes, element - code_.lanes, Real(0));
-            leaves_->rows[k] = to;
-        }
-    }
-
-    /// Points of a batch: all, or as many as the cache has room for.
-    std::size_t batch_points(const ClauseTape& tape, std::size_t count, std::size_t parts) const {
-        const std::size_t rows = tape.rows - tape.data->constants.size();
-        const std::size_t room = cache_bytes / (std::max<std::size_t>(rows, 1) * parts * sizeof(Real));
-        const std::size_t fitting = std::clamp(room, least_points, most_points) / 16 * 16;
-        return std::min(fitting, std::max(whole_elements(count), code_.lanes));
-    }
-
-    /// Value rows of `stride` numbers, and behind them as many rows for coordinates.
-    void lay_out(const ClauseTape& tape, std::size_t stride) {
-        const std::size_t values = tape.rows - frame_.rows.first_value;
-        Real* const memory = memory_.at_least((values + coordinates_) * stride);
-        frame_.rows.values = memory;
-        frame_.rows.stride = stride;
-        copies_ = memory + values * stride;
+        table_ = &table;
+        if (table.data != tape.data) fill_constants(table, tape.data);
+        coordinates_ = static_cast<std::size_t>(table.data->coordinates);
+        frame_.constants = static_cast<RowNumber>(table.data->constants.size());
         frame_.clauses = tape.clauses.data();
         frame_.clause_count = tape.clauses.size();
     }
 
-    const Real* row(RowNumber number) const {
-        const batch::Rows<Real>& rows = frame_.rows;
-        if (number < rows.first_value) return leaves_->rows[number];
-        return rows.values + (number - rows.first_value) * rows.stride;
+    void fill_constants(Table& table, const std::shared_ptr<const ClauseData>& data) {
+        table.data = data;
+        table.stride = 0;
+        const std::size_t constants = data->constants.size(), element = table.parts * code_.lanes;
+        Real* to = table.constants.at_least(constants * element);
+        table.rows.assign(data->first_value_row(), nullptr);
+        for (std::size_t k = 0; k < constants; ++k, to += element) {
+            std::fill_n(to, code_.lanes, static_cast<Real>(data->constants[k]));
+            std::fill_n(to + code_.lanes, element - code_.lanes, Real(0));
+            table.rows[k] = to;
+        }
     }
-    std::size_t mask_of(RowNumber number) const {
-        return number < frame_.rows.constants ? 0 : ~std::size_t{0};
+
+    /// Points of a batch: all, or as many as the cache has room for.
+    std::size_t batch_points(const ClauseTape& tape, std::size_t count) const {
+        const std::size_t rows = tape.rows - frame_.constants;
+        const std::size_t room =
+            cache_bytes / (std::max<std::size_t>(rows, 1) * table_->parts * sizeof(Real));
+        const std::size_t fitting = std::clamp(room, least_points, most_points) / 16 * 16;
+        return std::min(fitting, std::max(whole_elements(count), code_.lanes));
     }
+
+    /// Rows for copies of the coordinates, then for values, `points` points each.
+    void lay_out(const ClauseTape& tape, std::size_t points) {
+        Table& table = *table_;
+        const std::size_t stride = points * table.parts, first = table.data->first_value_row();
+        const std::size_t values = tape.rows - first;
+        copies_ = table.memory.at_least((coordinates_ + values) * stride);
+        if (table.stride != stride || table.begin != copies_ || table.rows.size() < tape.rows) {
+            table.stride = stride;
+            table.begin = copies_;
+            table.rows.resize(tape.rows);
+            for (std::size_t k = 0; k < values; ++k)
+                table.rows[first + k] = copies_ + (coordinates_ + k) * stride;
+        }
+        frame_.rows = table.rows.data();
+    }
+
+    const Real* row(RowNumber number) const { return table_->rows[number]; }
+    std::size_t mask_of(RowNumber number) const { return number < frame_.constants ? 0 : ~std::size_t{0}; }
 
     batch::OtherCall<Real> call_of(const Clause& clause, Real* out) {
         const auto operands = tape_->operands_of(clause);
@@ -170,11 +175,11 @@ class BatchVm<Real>::Machine {
         const std::size_t numbers = whole_elements(points);
         frame_.numbers = numbers;
         for (std::size_t i = 0; i < coordinates_; ++i) {
-            const Real*& leaf = leaves_->rows[frame_.rows.constants + i];
+            const Real*& leaf = table_->rows[frame_.constants + i];
             leaf = coordinates[i] + start;
             if (numbers == points) continue;
             // points beyond the last one repeat it
-            Real* const copy = copies_ + i * frame_.rows.stride;
+            Real* const copy = copies_ + i * table_->stride;
             std::copy_n(leaf, points, copy);
             std::fill(copy + points, copy + numbers, leaf[points - 1]);
             leaf = copy;
@@ -200,8 +205,8 @@ class BatchVm<Real>::Machine {
         frame_.numbers = elements * element;
         frame_.last_out = nullptr;
         for (std::size_t i = 0; i < coordinates_; ++i) {
-            Real* to = copies_ + i * frame_.rows.stride;
-            leaves_->rows[frame_.rows.constants + i] = to;
+            Real* to = copies_ + i * table_->stride;
+            table_->rows[frame_.constants + i] = to;
             const Real* const from = coordinates[i] + pass.start;
             for (std::size_t p = 0; p < pass.points; p += lanes, to += element) {
                 const std::size_t some = std::min(lanes, pass.points - p);
@@ -227,10 +232,9 @@ class BatchVm<Real>::Machine {
     const batch::Code<Real> code_;
     batch::Frame<Real> frame_;
     const ClauseTape* tape_ = nullptr;  ///< the one that runs
-    Leaves value_leaves_, gradient_leaves_;
-    Leaves* leaves_ = nullptr;
+    Table values_{1}, gradients_{4};
+    Table* table_ = nullptr;  ///< the one in use
     std::size_t coordinates_ = 0;
-    Memory<Real> memory_;
     Real* copies_ = nullptr;  ///< rows for coordinates
     std::vector<batch::Operand<Real>> operands_;
     batch::OtherOperations<Real> other_;

@@ -43,11 +43,19 @@ inline T finite(T x) {
     const T both = select(less(most, low), most, low);
     return select(is_nan(x), T(0.0), both);
 }
+/// The same for an x that is not NaN: derivatives are finite numbers, so that products and sums of two of
+/// them never are.
+template <AnyLaneType T>
+inline T saturated(T x) {
+    const T most(format_of<T>::max_finite);
+    const T low = select(less(x, -most), -most, x);
+    return select(less(most, low), most, low);
+}
 /// The chain rule for f(a): value f, local partial fa.
 template <class T>
 inline Dual<T> chain(T f, T fa, const Dual<T>& a) {
     fa = finite(fa);
-    return {f, {finite(fa * a.d[0]), finite(fa * a.d[1]), finite(fa * a.d[2])}};
+    return {f, {saturated(fa * a.d[0]), saturated(fa * a.d[1]), saturated(fa * a.d[2])}};
 }
 /// The chain rule for f(a, b): value f, local partials fa and fb.
 template <class T>
@@ -57,7 +65,7 @@ inline Dual<T> chain(T f, T fa, const Dual<T>& a, T fb, const Dual<T>& b) {
     Dual<T> r;
     r.value = f;
     for (std::size_t i = 0; i < 3; ++i) {
-        r.d[i] = finite(finite(fa * a.d[i]) + finite(fb * b.d[i]));
+        r.d[i] = saturated(saturated(fa * a.d[i]) + saturated(fb * b.d[i]));
     }
     return r;
 }
@@ -97,11 +105,13 @@ inline Dual<LanesOf<E, N>> select(LaneMaskOf<E, N> m, const Dual<LanesOf<E, N>>&
 
 template <class T>
 inline Dual<T> operator+(const Dual<T>& a, const Dual<T>& b) {
-    return chain(a.value + b.value, T(1.0), a, T(1.0), b);
+    return {a.value + b.value,
+            {saturated(a.d[0] + b.d[0]), saturated(a.d[1] + b.d[1]), saturated(a.d[2] + b.d[2])}};
 }
 template <class T>
 inline Dual<T> operator-(const Dual<T>& a, const Dual<T>& b) {
-    return chain(a.value - b.value, T(1.0), a, T(-1.0), b);
+    return {a.value - b.value,
+            {saturated(a.d[0] - b.d[0]), saturated(a.d[1] - b.d[1]), saturated(a.d[2] - b.d[2])}};
 }
 template <class T>
 inline Dual<T> operator-(const Dual<T>& a) {

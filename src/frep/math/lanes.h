@@ -107,13 +107,9 @@ struct LanesOf {
     /// N copies of a value.
     static LanesOf broadcast(double all) { return LanesOf(all); }
     /// Reads N numbers from memory (any alignment).
-    static LanesOf load(const E* from) {
-        LanesOf r;
-        __builtin_memcpy(&r.items, from, sizeof(Items));
-        return r;
-    }
+    static LanesOf load(const E* from) { return LanesOf(Items::load(from)); }
     /// Writes N numbers to memory (any alignment).
-    void store(E* to) const { __builtin_memcpy(to, &items, sizeof(Items)); }
+    void store(E* to) const { items.store(to); }
     /// The value of lane i.
     E operator[](int i) const { return items.get(i); }
     /// Sets lane i.

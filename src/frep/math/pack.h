@@ -54,6 +54,11 @@ struct Pack {
     Half low, high;
 
     static Pack all(E x) { return {Half::all(x), Half::all(x)}; }
+    static Pack load(const E* from) { return {Half::load(from), Half::load(from + N / 2)}; }
+    void store(E* to) const {
+        low.store(to);
+        high.store(to + N / 2);
+    }
     E get(int i) const { return i < N / 2 ? low.get(i) : high.get(i - N / 2); }
     void set(int i, E x) {
         if (i < N / 2) {
@@ -70,6 +75,13 @@ struct Pack<E, N, true> {
     Vector v;
 
     static Pack all(E x) { return {x - Vector{}}; }
+    /// Any alignment.
+    static Pack load(const E* from) {
+        Pack r;
+        __builtin_memcpy(&r.v, from, sizeof(Vector));
+        return r;
+    }
+    void store(E* to) const { __builtin_memcpy(to, &v, sizeof(Vector)); }
     E get(int i) const { return v[i]; }
     void set(int i, E x) { v[i] = x; }
 };

@@ -88,12 +88,6 @@ RandomOptions options_for(std::uint64_t seed) {
     return options;
 }
 
-Columns<double> first_rows(const Columns<double>& all, std::size_t rows) {
-    Columns<double> some = all;
-    for (auto& column : some.columns) column.resize(rows);
-    return some;
-}
-
 }  // namespace
 
 TEST_CASE("batch vm in binary64: the bits of the reference engine on every instruction set") {
@@ -102,7 +96,7 @@ TEST_CASE("batch vm in binary64: the bits of the reference engine on every instr
         BatchVm<double> vm = vm_for<double>(isa);  // one for all fields, as in use
         std::size_t wrong_values = 0, wrong_gradients = 0, defined = 0;
         for (std::uint64_t seed = 0; seed < graphs; ++seed) {
-            const Field field = RandomField(seed + 7000, options_for(seed)).make();
+            const Field field = bind_parameters(RandomField(seed + 7000, options_for(seed)).make());
             const std::size_t rows = 1 + seed % 70;
             Random random(seed);
             const Columns<double> points = random_points(random, field.coordinates, rows);
@@ -130,7 +124,7 @@ TEST_CASE("batch vm in binary64: the bits of the reference engine on every instr
 
 TEST_CASE("batch vm: long batches equal short ones") {
     for (std::uint64_t seed = 0; seed < 30; ++seed) {
-        const Field field = RandomField(seed + 90, options_for(seed)).make();
+        const Field field = bind_parameters(RandomField(seed + 90, options_for(seed)).make());
         ClauseTape tape = *make_clause_tape(field);
         pack_rows(tape);
         Random random(seed);
@@ -163,7 +157,7 @@ TEST_CASE("batch vm in binary32: the same bits on every instruction set, total g
     std::vector<BatchVm<float>> vms;
     for (const Isa isa : sets()) vms.push_back(vm_for<float>(isa));
     for (std::uint64_t seed = 0; seed < graphs; ++seed) {
-        const Field field = RandomField(seed + 7000, options_for(seed)).make();
+        const Field field = bind_parameters(RandomField(seed + 7000, options_for(seed)).make());
         const std::size_t rows = 1 + seed % 70;
         Random random(seed);
         const Columns<float> points = rounded(random_points(random, field.coordinates, rows));
