@@ -18,7 +18,7 @@ namespace {
 static_assert(sizeof(Clause) == 24 && offsetof(Clause, op) == 0 && offsetof(Clause, listed) == 1 &&
               offsetof(Clause, count) == 4 && offsetof(Clause, out) == 8 && offsetof(Clause, in) == 12);
 
-/// A cut tape is worth having when it is shorter than its parent by one part in so many.
+/// A cut tape is worth having when one clause in so many of its parent's is gone or became simpler.
 constexpr std::size_t least_saving = 16;
 
 const tile::Kernels& kernels_for(Isa isa) {
@@ -46,6 +46,21 @@ class Rows {
     std::unique_ptr<tile::Row[]> rows_;
     std::size_t size_ = 0;
 };
+
+/// Bounds as binary32, outward; as rounded_down() and rounded_up(), without a branch.
+void round_outward(const double* lo, const double* hi, tile::Row& row) {
+    constexpr float largest = std::numeric_limits<float>::max();
+    constexpr float least_number = std::numeric_limits<float>::denorm_min();
+    for (int k = 0; k < tile_lanes; ++k) {
+        const auto low = static_cast<float>(lo[k]), high = static_cast<float>(hi[k]);
+        const float below = low - (__builtin_fabsf(low) * 0x1p-23f + least_number);
+        const float above = high + (__builtin_fabsf(high) * 0x1p-23f + least_number);
+        const float bottom = static_cast<double>(low) > lo[k] ? below : low;
+        const float top = static_cast<double>(high) < hi[k] ? above : high;
+        row.lo[k] = bottom > largest ? largest : bottom;
+        row.hi[k] = top < -largest ? -largest : top;
+    }
+}
 
 }  // namespace
 
@@ -96,14 +111,15 @@ void Pruner::Workspace::prepare(const ClauseTape& of) {
 
 void Pruner::Workspace::fill_coordinates(const BoxLanes& boxes) {
     for (int i = 0; i < data->coordinates; ++i) {
-        const RowNumber row = data->coordinate_row(i);
-        flags[row] = 0;
-        for (int k = 0; k < tile_lanes; ++k) {
-            // lanes without a box repeat the first
-            const auto lane = static_cast<std::size_t>(k < boxes.count ? k : 0);
-            const auto axis = static_cast<std::size_t>(i);
-            rows.data()[row].lo[k] = rounded_down(boxes.lo[axis][lane]);
-            rows.data()[row].hi[k] = rounded_up(boxes.hi[axis][lane]);
+        const RowNumber number = data->coordinate_row(i);
+        flags[number] = 0;
+        tile::Row& row = rows.data()[number];
+        const auto axis = static_cast<std::size_t>(i);
+        round_outward(boxes.lo[axis].data(), boxes.hi[axis].data(), row);
+        // lanes without a box repeat the first
+        for (int k = boxes.count; k < tile_lanes; ++k) {
+            row.lo[k] = row.lo[0];
+            row.hi[k] = row.hi[0];
         }
     }
 }
@@ -158,18 +174,20 @@ void Pruner::Workspace::emit_groups(Purpose purpose, unsigned lanes, std::size_t
     std::array<std::uint16_t, tile_lanes> same{};
     kernels->agree(records.data(), count, lanes, same.data());
     const std::span<const tile::Record> found(records.data(), count);
-    const std::size_t worth = tape->clauses.size() - tape->clauses.size() / least_saving;
+    const std::size_t before = tape->clauses.size();
     for (unsigned left = lanes; left != 0;) {
         const auto k = static_cast<std::size_t>(__builtin_ctz(left));
         const unsigned group = same[k] & left;
         left &= ~group;
         const auto number = static_cast<std::size_t>(out.tape_count);
         if (out.tapes.size() <= number) out.tapes.resize(number + 1);
-        emit_cut_tape(*tape, found, group, purpose == Purpose::occupancy, emitter, out.tapes[number]);
-        const bool kept = out.tapes[number].clauses.size() <= worth && !tape->clauses.empty();
+        ClauseTape& cut_tape = out.tapes[number];
+        const std::size_t simpler =
+            emit_cut_tape(*tape, found, group, purpose == Purpose::occupancy, emitter, cut_tape);
+        const std::size_t saved = before - cut_tape.clauses.size() + simpler;
+        const bool kept = saved > before / least_saving;
         for (std::size_t i = 0; i < tile_lanes; ++i)
-            if (group >> i & 1u)
-                out.tape_of[i] = kept ? static_cast<std::int8_t>(number) : CutResult::whole;
+            if (group >> i & 1u) out.tape_of[i] = kept ? static_cast<std::int8_t>(number) : CutResult::whole;
         if (kept) ++out.tape_count;
     }
 }

@@ -1,8 +1,9 @@
 // Pruner: what part of a field matters in a box. It finds the range of F over up to 16 boxes at a time, and
-// for the boxes where the sign of F is open a shorter tape that stands for F there. Method: interval arithmetic
-// with a box in each lane (Duff 1992; Keeter 2020), then a pass from the root down that drops operands by what
-// is demanded of them, the sign alone or the value (docs/decisions/0012-pruning-by-demand.md); boxes whose
-// choices agree share one tape. Tested by tests/unit/eval/prune_test.cpp.
+// for the boxes where the sign of F is open a shorter tape that stands for F there. Method: interval
+// arithmetic with a box in each lane (Duff 1992; Keeter 2020), then a pass from the root down that drops
+// operands by what is demanded of them, the sign alone or the value
+// (docs/decisions/0012-pruning-by-demand.md); boxes whose choices agree share one tape. Tested by
+// tests/unit/eval/prune_test.cpp.
 #pragma once
 
 #include <array>

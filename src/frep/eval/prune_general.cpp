@@ -11,7 +11,7 @@ namespace {
 constexpr float largest = std::numeric_limits<float>::max();
 constexpr float least_number = std::numeric_limits<float>::denorm_min();
 /// R-functions of binary32 engines may be saturated from here on.
-constexpr float saturation = 1e18f;
+constexpr float saturation = 0.999e18f;
 /// What binary32 may differ by, relative: 2 ulp of the function, 1 of the rounding of its bounds here.
 constexpr float rounding_of_binary32 = 0x1p-21f;
 

@@ -4,6 +4,7 @@
 // 0 * inf. What has no form here goes through Job::general. Tested by tests/unit/eval/prune_test.cpp.
 #pragma once
 
+#include "frep/eval/tile_functions.h"
 #include "frep/eval/tile_kernels.h"
 #include "frep/eval/tile_vector.h"
 #include "frep/field/op.h"
@@ -11,11 +12,11 @@
 namespace frep::tile {
 namespace {
 
-constexpr float place = 0x1p-23f;             ///< at least one place of any number, relative to it
-constexpr float least_number = 0x1p-149f;     ///< the smallest positive number
-constexpr float largest = 0x1.fffffep+127f;   ///< the largest finite number
+constexpr float place = 0x1p-23f;            ///< at least one place of any number, relative to it
+constexpr float least_number = 0x1p-149f;    ///< the smallest positive number
+constexpr float largest = 0x1.fffffep+127f;  ///< the largest finite number
 constexpr float endless = __builtin_huge_valf();
-constexpr float small = 0x1p-100f;            ///< products beyond are far from underflow
+constexpr float small = 0x1p-100f;  ///< products beyond are far from underflow
 /// Operands of square sums that neither over- nor underflow.
 constexpr float ordinary_low = 1e-15f, ordinary_high = 1e15f;
 /// A number is true from here on, whether 1e-6 is rounded to binary32 or not; and false below there.
@@ -217,8 +218,10 @@ unsigned r_function(const Row& a, const Row& b, Row& r) {
         const V q = united ? -conjunction(-ah, -bh) : conjunction(ah, bh);
         // a step of the smallest number keeps the sign, that of min (max)
         const V below = p - magnitude(p) * by, above = q + magnitude(q) * by;
-        const V lo = pick(less(zero, below), most(zero, below - tiny), pick(less(below, zero), below - tiny, below));
-        const V hi = pick(less(above, zero), least(zero, above + tiny), pick(less(zero, above), above + tiny, above));
+        const V lo =
+            pick(less(zero, below), most(zero, below - tiny), pick(less(below, zero), below - tiny, below));
+        const V hi =
+            pick(less(above, zero), least(zero, above + tiny), pick(less(zero, above), above + tiny, above));
         put(r, c, lo, hi);
         bad |= bits(~(ordinary(al, bl) & ordinary(ah, bh))) << c;
     }
@@ -227,8 +230,8 @@ unsigned r_function(const Row& a, const Row& b, Row& r) {
 
 /// x without its fraction; exact.
 inline V truncated(V x) {
-    const V t = __builtin_convertvector(__builtin_convertvector(pick(less(magnitude(x), all(0x1p23f)), x, all(0.0f)),
-                                                                Integers), V);
+    const V t = __builtin_convertvector(
+        __builtin_convertvector(pick(less(magnitude(x), all(0x1p23f)), x, all(0.0f)), Integers), V);
     return pick(less(magnitude(x), all(0x1p23f)), t, x);
 }
 inline V one_where(M m) { return pick(m, all(1.0f), all(0.0f)); }
@@ -291,7 +294,8 @@ void put_truth(Truth t, Row& r) {
 std::uint32_t selection(const Job& job, Reader clause, Row& r) {
     const Row &condition = job.rows[clause.in(0)], &b = job.rows[clause.in(1)], &d = job.rows[clause.in(2)];
     const Truth t = truth_of(condition);
-    const std::uint32_t fc = job.flags[clause.in(0)], fb = job.flags[clause.in(1)], fd = job.flags[clause.in(2)];
+    const std::uint32_t fc = job.flags[clause.in(0)], fb = job.flags[clause.in(1)],
+                        fd = job.flags[clause.in(2)];
     for (int k = 0; k < 16; ++k) {
         const bool yes = t.yes >> k & 1u, no = t.no >> k & 1u;
         const float lo = b.lo[k] < d.lo[k] ? b.lo[k] : d.lo[k], hi = b.hi[k] > d.hi[k] ? b.hi[k] : d.hi[k];
@@ -364,7 +368,7 @@ bool arithmetic(const Job& job, Reader clause, Row& r, std::uint32_t& f, unsigne
     }
 }
 
-bool one_operand(Reader clause, const Row& a, Row& r, std::uint32_t& f) {
+bool one_operand(Reader clause, const Row& a, Row& r, std::uint32_t& f, unsigned& bad) {
     switch (clause.op()) {
         case Op::neg:
             negation(a, r);
@@ -381,6 +385,15 @@ bool one_operand(Reader clause, const Row& a, Row& r, std::uint32_t& f) {
             f |= none << 16;
             return true;
         }
+        case Op::exp:
+            exponential(a, r);
+            return true;
+        case Op::sin:
+            bad = wave<0>(a, r);
+            return true;
+        case Op::cos:
+            bad = wave<1>(a, r);
+            return true;
         case Op::floor:
             rounding<Op::floor>(a, r);
             return true;
@@ -421,7 +434,7 @@ void forward(const Job& job) {
                 done = arithmetic(job, clause, r, f, bad);
             } else if (clause.count() == 1) {
                 f = job.flags[clause.in(0)];
-                done = one_operand(clause, job.rows[clause.in(0)], r, f);
+                done = one_operand(clause, job.rows[clause.in(0)], r, f, bad);
             } else if (clause.op() == Op::select) {
                 f = selection(job, clause, r);
                 done = true;

@@ -1,6 +1,6 @@
-// The passes of the pruner over the lanes of a tile row, compiled once for each instruction set: bare pointers
-// and plain data, so that nothing of a wider set can slip into the rest of the program (docs/numerics.md, rule
-// 2). Used by prune.cpp alone. Tested by tests/unit/eval/prune_test.cpp.
+// The passes of the pruner over the lanes of a tile row, compiled once for each instruction set: bare
+// pointers and plain data, so that nothing of a wider set can slip into the rest of the program
+// (docs/numerics.md, rule 2). Used by prune.cpp alone. Tested by tests/unit/eval/prune_test.cpp.
 #pragma once
 
 #include <cstddef>
@@ -18,18 +18,18 @@ struct alignas(64) Row {
 /// What the pass from the root down found out about a clause that some box needs. Masks of boxes.
 struct Record {
     std::uint32_t clause;
-    std::uint16_t live;    ///< boxes that need the clause
-    std::uint16_t value;   ///< those that need its value, not only its sign
-    std::uint16_t first;   ///< boxes where its first choice stands for it: operand 0 (select: 1)
-    std::uint16_t second;  ///< boxes where its second choice does: operand 1 (select: 2)
-    std::uint16_t base;    ///< boxes where a simpler operation does (a blend at rest: its set operation)
+    std::uint16_t live;      ///< boxes that need the clause
+    std::uint16_t value;     ///< those that need its value, not only its sign
+    std::uint16_t first;     ///< boxes where its first choice stands for it: operand 0 (select: 1)
+    std::uint16_t second;    ///< boxes where its second choice does: operand 1 (select: 2)
+    std::uint16_t base;      ///< boxes where a simpler operation does (a blend at rest: its set operation)
     std::uint16_t optional;  ///< 1: boxes may share a tape although these choices differ
 };
 
-/// A pass over a tape. Flags of a row: bit k = box k may be undefined, bit 16 + k = surely is (its bounds then
-/// say nothing).
+/// A pass over a tape. Flags of a row: bit k = box k may be undefined, bit 16 + k = surely is (its bounds
+/// then say nothing).
 struct Job {
-    const void* clauses;            ///< Clause, see clause_tape.h
+    const void* clauses;  ///< Clause, see clause_tape.h
     std::uint32_t clause_count;
     const std::uint32_t* operands;  ///< of the clauses that list them
     std::uint32_t constants;        ///< rows below are constants

@@ -1,8 +1,8 @@
 // The pass from the root down: which clauses each box needs, for their sign or their value, and what stands
-// for a clause there. Included by tile_impl.h alone, once for each instruction set. Method: two masks of boxes
-// a row, all users of a row before the row; the rules are those of docs/decisions/0012-pruning-by-demand.md.
-// An operand that may be undefined is never dropped, since undefined passes through every operation. Tested by
-// tests/unit/eval/prune_test.cpp.
+// for a clause there. Included by tile_impl.h alone, once for each instruction set. Method: two masks of
+// boxes a row, all users of a row before the row; the rules are those of
+// docs/decisions/0012-pruning-by-demand.md. An operand that may be undefined is never dropped, since
+// undefined passes through every operation. Tested by tests/unit/eval/prune_test.cpp.
 #pragma once
 
 #include "frep/eval/tile_forward.h"
@@ -230,7 +230,8 @@ std::size_t reverse(const Job& job) {
         if (wanted == 0) continue;
         const Demand d{wanted & 0xffffu, wanted >> 16};
         wanted = 0;
-        *next = Record{i, static_cast<std::uint16_t>(d.live), static_cast<std::uint16_t>(d.value), 0, 0, 0, 0};
+        *next =
+            Record{i, static_cast<std::uint16_t>(d.live), static_cast<std::uint16_t>(d.value), 0, 0, 0, 0};
         demand_of(w, d, *next);
         ++next;
     }

@@ -40,6 +40,9 @@ inline M operator~(M a) { return {(__mmask16)(~a.bits)}; }
 inline M less(V a, V b) { return {_mm512_cmp_ps_mask((__m512)a, (__m512)b, _CMP_LT_OQ)}; }
 inline M less_equal(V a, V b) { return {_mm512_cmp_ps_mask((__m512)a, (__m512)b, _CMP_LE_OQ)}; }
 inline M same(V a, V b) { return {_mm512_cmp_ps_mask((__m512)a, (__m512)b, _CMP_EQ_OQ)}; }
+inline M has_bit(Integers n, int bit) {
+    return {_mm512_test_epi32_mask((__m512i)n, (__m512i)(Integers{} + bit))};
+}
 inline unsigned bits(M m) { return m.bits; }
 inline V pick(M m, V a, V b) { return (V)_mm512_mask_blend_ps(m.bits, (__m512)b, (__m512)a); }
 // under a full mask, since g++ 12 warns of the undefined operand in its own header otherwise
@@ -53,6 +56,7 @@ typedef Integers M;
 inline M less(V a, V b) { return a < b; }
 inline M less_equal(V a, V b) { return a <= b; }
 inline M same(V a, V b) { return a == b; }
+inline M has_bit(Integers n, int bit) { return (n & bit) != 0; }
 
 #if defined(__AVX2__)
 inline unsigned bits(M m) { return static_cast<unsigned>(_mm256_movemask_ps((__m256)m)); }
