@@ -7,8 +7,8 @@
 #include <limits>
 
 #include "frep/base/parallel.h"
-#include "frep/eval/batch_vm.h"
 #include "frep/eval/prune.h"
+#include "frep/trace/tile_columns.h"
 #include "frep/trace/tile_worker.h"
 
 namespace frep {
@@ -20,9 +20,6 @@ constexpr int split = 4;        ///< and of all others; split * split children a
 constexpr int most_levels = 8;  ///< of tiles: 8, 16, 64, 256, 1024, ...
 constexpr std::size_t leaf_columns = leaf_side * leaf_side;
 constexpr std::size_t most_columns = leaf_columns * tile_lanes;
-/// Points of a batch that is evaluated before it is known which columns are done.
-constexpr std::size_t batch_points = 1024;
-constexpr std::size_t most_points = most_columns + batch_points;
 
 /// A cube of voxels; the edges of the picture may cut it. z counts from the back.
 struct VoxelTile {
@@ -73,21 +70,6 @@ struct Space {
     }
 };
 
-/// A pixel whose ray goes on.
-template <class Real>
-struct Column {
-    Real before;  ///< F at the voxel in front
-    int x, y;
-    int lane;
-};
-
-/// A ray that has met the surface, with F at the first voxel inside and at the one in front of it.
-template <class Real>
-struct Hit {
-    Real before, value;
-    int x, y, layer;
-};
-
 /// One thread's part of the work.
 template <class Real>
 class Worker {
@@ -99,13 +81,12 @@ class Worker {
 
     void begin(Space<Real>& space) {
         space_ = &space;
-        point_operations_ = 0;
         operations_before_ = pruner_.tile_operations();
-        points_.prepare(space.sources, most_points);
+        march_.begin(space.sources, space.z, most_columns);
     }
     /// Operations since begin().
     std::size_t tile_operations() const { return pruner_.tile_operations() - operations_before_; }
-    std::size_t point_operations() const { return point_operations_; }
+    std::size_t point_operations() const { return march_.point_operations(); }
 
     /// Layers of children that go through one pass.
     int layers_a_pass(int level) const { return children_along(level) == split ? 1 : last_split; }
@@ -217,28 +198,21 @@ class Worker {
 
     /// Evaluates leaves of one layer, those of `group`, from front to back.
     void look_into(const Lanes& lanes, unsigned group, const ClauseTape& tape) {
-        list_columns(lanes, group);
-        if (columns_.empty()) return;
-        hits_.clear();
-        lane_hits_.fill(0);
-        int first = 0;
-        while ((group >> first & 1u) == 0) ++first;
-        const int bottom = z_of(lanes, first), front = bottom + leaf_side;
-        // the voxels in front hold no hit, only the values that a refinement starts from
-        int z = std::min(front, space_->options->layers - 1);
-        while (z >= bottom && !columns_.empty()) {
-            const auto fitting = static_cast<int>(std::max<std::size_t>(1, batch_points / columns_.size()));
-            const int count = std::min(fitting, z - bottom + 1);
-            evaluate_layers(z, count, tape);
-            for (int i = 0; i < count; ++i) find_hits(z - i, i, z - i == front);
-            columns_.erase(std::remove_if(columns_.begin(), columns_.end(),
-                                          [](const Column<Real>& c) { return c.lane < 0; }),
-                           columns_.end());
-            z -= count;
+        march_.clear();
+        int bottom = 0;
+        for (int k = 0; k < lanes.count; ++k) {
+            if ((group >> k & 1u) == 0) continue;
+            bottom = z_of(lanes, k);
+            add_rays(lanes.tiles[static_cast<std::size_t>(k)], k);
         }
-        refine(tape);
+        if (march_.rays() == 0) return;
+        // the voxels in front are outside; a refinement starts from their values
+        const int front = bottom + leaf_side, last = space_->options->layers - 1;
+        march_.run(tape, std::min(front, last), bottom, front <= last);
+        for (std::size_t i = 0; i < march_.hit_count(); ++i)
+            write(march_.hit(i).pixel, march_.hit(i).layer, march_.height(i), march_.normal(i));
         for (int k = 0; k < lanes.count; ++k)
-            if (const int hits = lane_hits_[static_cast<std::size_t>(k)]; hits > 0)
+            if (const int hits = march_.hits_of(k); hits > 0)
                 space_->count_hits(lanes.tiles[static_cast<std::size_t>(k)], hits);
     }
 
@@ -259,125 +233,43 @@ class Worker {
         for (int y = leaf.y; y < std::min(leaf.y + leaf_side, space_->options->height); ++y)
             for (int x = leaf.x; x < std::min(leaf.x + leaf_side, space_->options->width); ++x) {
                 if (space_->out->layers[space_->pixel(x, y)] != 0) continue;
-                write(x, y, layer, static_cast<float>(space_->z[layer]), {0, 0, 1});
+                write(space_->pixel(x, y), layer, static_cast<float>(space_->z[layer]), {0, 0, 1});
                 ++hits;
             }
         space_->count_hits(leaf, hits);
     }
 
-    void write(int x, int y, int layer, float z, const std::array<float, 3>& normal) {
+    void write(std::size_t pixel, int layer, float z, const std::array<float, 3>& normal) {
         DepthPicture& out = *space_->out;
-        const std::size_t p = space_->pixel(x, y);
-        out.layers[p] = static_cast<std::uint16_t>(layer + 1);
-        out.z[p] = z;
-        out.normals[p] = normal;
+        out.layers[pixel] = static_cast<std::uint16_t>(layer + 1);
+        out.z[pixel] = z;
+        out.normals[pixel] = normal;
     }
 
-    void list_columns(const Lanes& lanes, unsigned group) {
-        columns_.clear();
-        for (int k = 0; k < lanes.count; ++k) {
-            if ((group >> k & 1u) == 0) continue;
-            const VoxelTile& leaf = lanes.tiles[static_cast<std::size_t>(k)];
-            if (is_hidden(leaf)) continue;
-            for (int y = leaf.y; y < std::min(leaf.y + leaf_side, space_->options->height); ++y)
-                for (int x = leaf.x; x < std::min(leaf.x + leaf_side, space_->options->width); ++x)
-                    if (space_->out->layers[space_->pixel(x, y)] == 0)
-                        columns_.push_back({std::numeric_limits<Real>::quiet_NaN(), x, y, k});
-        }
-    }
-
-    /// F in layers z, z - 1, ... of all columns.
-    void evaluate_layers(int z, int count, const ClauseTape& tape) {
-        const std::size_t width = columns_.size();
-        Real *const x = points_.axis[0].data(), *const y = points_.axis[1].data();
-        for (std::size_t c = 0; c < width; ++c) {
-            x[c] = space_->x.rounded[static_cast<std::size_t>(columns_[c].x)];
-            y[c] = space_->y.rounded[static_cast<std::size_t>(columns_[c].y)];
-        }
-        for (int i = 0; i < count; ++i) {
-            const std::size_t at = static_cast<std::size_t>(i) * width;
-            if (i > 0) std::copy_n(x, width, x + at), std::copy_n(y, width, y + at);
-            std::fill_n(points_.axis[2].data() + at, width,
-                        space_->z.rounded[static_cast<std::size_t>(z - i)]);
-        }
-        const std::size_t points = width * static_cast<std::size_t>(count);
-        vm_.values(tape, points_.coordinates(), points, values_.data());
-        point_operations_ += points * tape.clauses.size();
-    }
-
-    /// Columns that are inside in layer z, the i-th of those evaluated; their lane becomes -1.
-    void find_hits(int z, int i, bool is_before) {
-        const std::size_t width = columns_.size();
-        const Real* const values = values_.data() + static_cast<std::size_t>(i) * width;
-        for (std::size_t c = 0; c < width; ++c) {
-            Column<Real>& column = columns_[c];
-            if (column.lane < 0) continue;
-            if (values[c] >= 0 && !is_before) {
-                ++lane_hits_[static_cast<std::size_t>(column.lane)];
-                hits_.push_back({column.before, values[c], column.x, column.y, z});
-                column.lane = -1;
-            } else {
-                column.before = values[c];
+    /// The rays of a leaf that have met nothing yet.
+    void add_rays(const VoxelTile& leaf, int lane) {
+        const int left = space_->footprints[0].at(leaf);
+        if (left == 0) return;
+        const int right = std::min(leaf.x + leaf_side, space_->options->width);
+        const int below = std::min(leaf.y + leaf_side, space_->options->height);
+        const bool all = left == (right - leaf.x) * (below - leaf.y);
+        for (int y = leaf.y; y < below; ++y) {
+            const std::size_t row = space_->pixel(0, y);
+            for (int x = leaf.x; x < right; ++x) {
+                const auto at = static_cast<std::size_t>(x);
+                if (all || space_->out->layers[row + at] == 0)
+                    march_.add(space_->x.rounded[at], space_->y.rounded[static_cast<std::size_t>(y)],
+                               row + at, lane);
             }
         }
     }
 
-    /// Depth and normals of the hits: the gradient where the chord between the two voxels meets 0.
-    void refine(const ClauseTape& tape) {
-        const std::size_t count = hits_.size();
-        if (count == 0) return;
-        for (std::size_t i = 0; i < count; ++i) {
-            const Hit<Real>& hit = hits_[i];
-            points_.axis[0][i] = space_->x.rounded[static_cast<std::size_t>(hit.x)];
-            points_.axis[1][i] = space_->y.rounded[static_cast<std::size_t>(hit.y)];
-            const Real z = space_->z.rounded[static_cast<std::size_t>(hit.layer)];
-            const Real share = hit.value / (hit.value - hit.before);
-            const bool chord = share >= 0 && share <= 1;
-            const Real front = chord ? space_->z.rounded[static_cast<std::size_t>(hit.layer + 1)] : z;
-            points_.axis[2][i] = chord ? z + share * (front - z) : z;
-        }
-        const std::size_t coordinates = space_->sources.count;
-        partials_.resize(coordinates * most_columns);
-        std::array<Real*, max_coordinates> partials{};
-        for (std::size_t k = 0; k < coordinates; ++k) partials[k] = partials_.data() + k * most_columns;
-        vm_.gradients(tape, points_.coordinates(), count, values_.data(),
-                      std::span(partials.data(), coordinates));
-        point_operations_ += count * tape.clauses.size();
-        for (std::size_t i = 0; i < count; ++i) write_hit(i);
-    }
-
-    void write_hit(std::size_t i) {
-        const Hit<Real>& hit = hits_[i];
-        std::array<double, 3> gradient{};
-        for (std::size_t k = 0; k < space_->sources.count; ++k)
-            if (const int axis = space_->sources.axis[k]; axis >= 0)
-                gradient[static_cast<std::size_t>(axis)] +=
-                    static_cast<double>(partials_[k * most_columns + i]);
-        const double size =
-            std::sqrt(gradient[0] * gradient[0] + gradient[1] * gradient[1] + gradient[2] * gradient[2]);
-        const bool is_cut = hit.layer + 1 == space_->options->layers;
-        std::array<float, 3> normal{0, 0, 1};
-        if (!is_cut && size > 0 && std::isfinite(size))
-            for (std::size_t a = 0; a < 3; ++a) normal[a] = static_cast<float>(-gradient[a] / size);
-        // one more step towards the root, between the two voxels
-        double z = static_cast<double>(points_.axis[2][i]);
-        const double step = static_cast<double>(values_[i]) / gradient[2];
-        const double low = space_->z[hit.layer], high = is_cut ? low : space_->z[hit.layer + 1];
-        if (std::isfinite(step)) z = std::clamp(z - step, low, high);
-        write(hit.x, hit.y, hit.layer, static_cast<float>(z), normal);
-    }
-
     Space<Real>* space_ = nullptr;
     Pruner pruner_;
-    BatchVm<Real> vm_;
+    ColumnMarch<Real> march_;
     std::array<CutResult, most_levels> cuts_;
-    std::size_t operations_before_ = 0, point_operations_ = 0;
+    std::size_t operations_before_ = 0;
     ClauseTape packed_;
-    PointBatch<Real> points_;
-    std::vector<Column<Real>> columns_;
-    std::vector<Hit<Real>> hits_;
-    std::array<int, tile_lanes> lane_hits_{};
-    std::vector<Real> values_ = std::vector<Real>(most_points), partials_;
 };
 
 }  // namespace
