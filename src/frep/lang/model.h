@@ -32,6 +32,8 @@ class Model {
     /// False when the text has errors; then there are no fields.
     bool ok() const { return !diagnostics_.has_errors(); }
     const Source& source() const { return source_; }
+    /// The language of a model that is ok().
+    ModelText text_form() const { return field_ ? ModelText::vm : ModelText::hyperfun; }
     const Diagnostics& diagnostics() const { return diagnostics_; }
     const lang::Program& program() const { return *program_; }
 
