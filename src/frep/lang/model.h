@@ -53,6 +53,9 @@ class Model {
     std::optional<lang::Lowered> lower(std::size_t object, const std::vector<double>& parameters,
                                        Diagnostics& diagnostics, bool lift = true) const;
 
+    /// Adds warnings about what `lowered`, a field of this model, does slowly or not as its author may think.
+    void advise(const lang::Lowered& lowered, Diagnostics& diagnostics) const;
+
     /// The field of an object, as find_object() finds it, lifted. Errors: invalid_argument for an unknown
     /// object, invalid_model with the rendered diagnostics.
     Result<Field> field(std::string_view object = {}, std::vector<double> parameters = {}) const;
