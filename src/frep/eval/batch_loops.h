@@ -81,13 +81,13 @@ constexpr bool has_loop(Op op, int arity, int cost) {
         case Op::log:
         case Op::sin:
         case Op::cos:
+        case Op::atan:
+        case Op::atan2:
             return true;
         case Op::log10:
         case Op::tan:
         case Op::asin:
         case Op::acos:
-        case Op::atan:
-        case Op::atan2:
         case Op::sinh:
         case Op::cosh:
         case Op::tanh:
