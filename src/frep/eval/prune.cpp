@@ -68,7 +68,8 @@ struct Pruner::Workspace {
     const tile::Kernels* kernels = nullptr;
     std::shared_ptr<const ClauseData> data;  ///< whose constants are in the rows
     Rows rows;
-    std::vector<std::uint32_t> flags, demand;
+    std::vector<std::uint32_t> flags;
+    std::vector<tile::Wanted> wanted;
     std::vector<tile::Record> records;
     GeneralRange general;
     CutEmitter emitter;
@@ -89,13 +90,13 @@ void Pruner::Workspace::prepare(const ClauseTape& of) {
     const bool moved = rows.grow(of.rows);
     if (flags.size() < of.rows) {
         flags.resize(of.rows);
-        demand.resize(of.rows);
+        wanted.resize(of.rows);
     }
     if (records.size() < of.clauses.size()) records.resize(of.clauses.size());
     if (!moved && data == of.data) return;
     data = of.data;
-    // the clauses clear the demands of their rows; those of constants and coordinates nobody reads
-    std::fill(demand.begin(), demand.end(), 0u);
+    // the clauses clear what is wanted of their rows; for constants and coordinates nobody reads it
+    std::fill(wanted.begin(), wanted.end(), tile::Wanted{});
     for (std::size_t i = 0; i < data->constants.size(); ++i) {
         const double c = data->constants[i];
         const bool none = c != c;
@@ -135,11 +136,12 @@ tile::Job Pruner::Workspace::job() {
     job.clause_count = static_cast<std::uint32_t>(tape->clauses.size());
     job.operands = tape->operands.data();
     job.constants = static_cast<std::uint32_t>(data->constants.size());
+    job.first_value = data->first_value_row();
     job.rows = rows.data();
     job.flags = flags.data();
     job.general = general_clause;
     job.self = this;
-    job.demand = demand.data();
+    job.wanted = wanted.data();
     job.records = records.data();
     return job;
 }
@@ -166,7 +168,10 @@ void Pruner::Workspace::run_forward(const ClauseTape& of, const BoxLanes& boxes,
 }
 
 std::size_t Pruner::Workspace::run_reverse(unsigned lanes, bool value) {
-    demand[tape->root] = lanes | (value ? lanes << 16 : 0u);
+    tile::Wanted& root = wanted[tape->root];
+    root = {};
+    root.live = static_cast<std::uint16_t>(lanes);
+    root.value = value ? root.live : std::uint16_t{0};
     return kernels->reverse(job());
 }
 

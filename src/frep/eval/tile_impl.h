@@ -2,6 +2,7 @@
 // tests/unit/eval/prune_test.cpp.
 #pragma once
 
+#include "frep/eval/tile_forward.h"
 #include "frep/eval/tile_reverse.h"
 
 namespace frep::tile {

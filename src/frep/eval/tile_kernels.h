@@ -26,6 +26,16 @@ struct Record {
     std::uint16_t optional;  ///< 1: boxes may share a tape although these choices differ
 };
 
+/// What the users of a row want of it, while the pass from the root down goes. Masks of boxes.
+struct Wanted {
+    std::uint16_t live = 0;   ///< boxes that need the row
+    std::uint16_t value = 0;  ///< those of them that need its value everywhere in the box
+    std::uint16_t inner = 0;  ///< boxes that need it as part of a smooth set operation (tile_smooth.h)
+    std::uint16_t stage = 0;  ///< which part
+    float margin = 0;         ///< the others of `live` need its sign, and its value where |value| <= margin
+    float inner_margin = 0;   ///< the same for the operands of the smooth set operation
+};
+
 /// A pass over a tape. Flags of a row: bit k = box k may be undefined, bit 16 + k = surely is (its bounds
 /// then say nothing).
 struct Job {
@@ -33,14 +43,15 @@ struct Job {
     std::uint32_t clause_count;
     const std::uint32_t* operands;  ///< of the clauses that list them
     std::uint32_t constants;        ///< rows below are constants
+    std::uint32_t first_value;      ///< clause i writes row first_value + i
     Row* rows;
     std::uint32_t* flags;
     /// Computes the range of clause number `clause` in the boxes of `lanes`, flags included.
     void (*general)(void* self, std::uint32_t clause, unsigned lanes);
     void* self;
-    /// By row: boxes that need it | boxes that need its value << 16. Before the pass from the root down 0 for
-    /// all values but the root; after it, for all values.
-    std::uint32_t* demand;
+    /// By row. Before the pass from the root down nothing is wanted of values but the root; after it, of
+    /// none.
+    Wanted* wanted;
     Record* records;  ///< room for clause_count of them
 };
 

@@ -5,60 +5,10 @@
 // undefined passes through every operation. Tested by tests/unit/eval/prune_test.cpp.
 #pragma once
 
-#include "frep/eval/tile_forward.h"
+#include "frep/eval/tile_smooth.h"
 
 namespace frep::tile {
 namespace {
-
-/// Boxes that need a clause, those that need its value, and those for which its sign is enough.
-struct Demand {
-    unsigned live, value;
-    unsigned sign() const { return live & ~value; }
-    Demand only(unsigned boxes) const { return {live & boxes, value & boxes}; }
-};
-
-struct Walk {
-    const Job& job;
-    Reader clause;
-
-    const std::uint32_t* operands() const { return job.operands + clause.in(0); }
-    /// Row of operand k.
-    std::uint32_t row(int k) const { return clause.listed() ? operands()[k] : clause.in(k); }
-    const Row& range(int k) const { return job.rows[row(k)]; }
-    unsigned undefined(int k) const { return job.flags[row(k)] & 0xffffu; }
-    void ask(int k, Demand d) const { job.demand[row(k)] |= d.live | d.value << 16; }
-    /// All of operand k, where the clause is needed.
-    void ask_value(int k, unsigned boxes) const { job.demand[row(k)] |= boxes | boxes << 16; }
-
-    unsigned positive(int k) const { return above(range(k), 0.0f); }
-    unsigned negative(int k) const { return below(range(k), 0.0f); }
-    /// Boxes where the range lies above, below x.
-    static unsigned above(const Row& a, float x) {
-        unsigned m = 0;
-        for (int c = 0; c < 16; c += width) m |= bits(less(all(x), load(a.lo + c))) << c;
-        return m;
-    }
-    static unsigned below(const Row& a, float x) {
-        unsigned m = 0;
-        for (int c = 0; c < 16; c += width) m |= bits(less(load(a.hi + c), all(x))) << c;
-        return m;
-    }
-    /// Boxes where all of operand j lies below all of operand k.
-    unsigned ordered(int j, int k) const {
-        const Row &a = range(j), &b = range(k);
-        unsigned m = 0;
-        for (int c = 0; c < 16; c += width) m |= bits(less(load(a.hi + c), load(b.lo + c))) << c;
-        return m;
-    }
-    /// Boxes where operand k is 0.
-    unsigned zero(int k) const {
-        const Row& a = range(k);
-        unsigned m = 0;
-        for (int c = 0; c < 16; c += width)
-            m |= bits(same(load(a.lo + c), all(0.0f)) & same(load(a.hi + c), all(0.0f))) << c;
-        return m & ~undefined(k);
-    }
-};
 
 /// The choice of operand 0 or 1: boxes that may do without the one or the other. Both keep their context.
 void choose(const Walk& w, Demand d, unsigned without_0, unsigned without_1, Record& r) {
@@ -73,14 +23,16 @@ void choose(const Walk& w, Demand d, unsigned without_0, unsigned without_1, Rec
 /// Set operations. R-functions choose by signs only, and only where the sign is enough.
 template <bool united, bool rounded>
 void set_operation(const Walk& w, Demand d, Record& r) {
+    if (rounded && d.margin > 0) d = d.as_value();
     unsigned without_0 = 0, without_1 = 0;
     if (!rounded) {
         without_0 = united ? w.ordered(0, 1) : w.ordered(1, 0);
         without_1 = united ? w.ordered(1, 0) : w.ordered(0, 1);
     }
     if (const unsigned sign = d.sign(); sign != 0) {
-        without_0 |= sign & (united ? w.negative(0) : w.positive(0));
-        without_1 |= sign & (united ? w.negative(1) : w.positive(1));
+        const float m = d.margin;
+        without_0 |= sign & (united ? Walk::below(w.range(0), -m) : Walk::above(w.range(0), m));
+        without_1 |= sign & (united ? Walk::below(w.range(1), -m) : Walk::above(w.range(1), m));
     }
     choose(w, d, without_0, without_1, r);
 }
@@ -116,8 +68,16 @@ unsigned beyond(const Walk& w, int k, int extent, float times) {
     return m;
 }
 
-/// f * g or f/g: the sign of f is enough where that of g is known (and inf/inf cannot come up).
+/// f * g or f/g: the sign of f is enough where that of g is known (and inf/inf cannot come up); a margin goes
+/// through constants.
 void product_demand(const Walk& w, Demand d, bool over) {
+    if (d.sign() != 0 && d.margin > 0) {
+        const float c = constant_size(w, 1), b = over ? 0 : constant_size(w, 0);
+        if (c > 0) w.ask(0, {d.live, d.value, widened(over ? d.margin * c : d.margin / c)});
+        if (b > 0) w.ask(1, {d.live, d.value, widened(d.margin / b)});
+        if (c > 0 || b > 0) return;
+        d = d.as_value();
+    }
     const unsigned sign = d.sign();
     if (sign == 0) {
         w.ask_value(0, d.live);
@@ -127,30 +87,38 @@ void product_demand(const Walk& w, Demand d, bool over) {
     const unsigned known_0 = over ? 0 : w.positive(0) | w.negative(0);
     unsigned known_1 = w.positive(1) | w.negative(1);
     if (over) known_1 &= Walk::above(w.range(1), -endless) & Walk::below(w.range(1), endless);
-    w.ask(0, {d.live, d.value | (sign & ~known_1)});
-    w.ask(1, {d.live, d.value | (sign & ~known_0)});
+    w.ask(0, {d.live, d.value | (sign & ~known_1), 0});
+    w.ask(1, {d.live, d.value | (sign & ~known_0), 0});
 }
 
-/// Where only the sign counts, a term that is 0 goes.
+/// a + b within a margin needs a within that and the size of b more. Where only the sign counts, a term that
+/// is 0 goes.
 void sum_demand(const Walk& w, Demand d, bool minus, Record& r) {
-    unsigned first = 0, second = 0;
-    if (const unsigned sign = d.sign(); sign != 0) {
-        first = sign & w.zero(1);
-        if (!minus) second = sign & w.zero(0) & ~first;
+    const unsigned sign = d.sign();
+    if (sign == 0) {
+        w.ask_value(0, d.live);
+        w.ask_value(1, d.live);
+        return;
     }
+    if (smooth_demand(w, d, minus, r)) return;
+    const unsigned first = sign & w.zero(1), second = minus ? 0 : sign & w.zero(0) & ~first;
     r.first = static_cast<std::uint16_t>(first);
     r.second = static_cast<std::uint16_t>(second);
-    w.ask(0, {d.live & ~second, (d.live & ~second) & ~first});
-    w.ask(1, {d.live & ~first, (d.live & ~first) & ~second});
+    if (first != 0) w.ask(0, {first, 0, d.margin});
+    if (second != 0) w.ask(1, {second, 0, d.margin});
+    const unsigned rest = d.live & ~first & ~second;
+    const float far_0 = farthest(w.range(0)), far_1 = farthest(w.range(1));
+    const float margin_0 = widened(d.margin + far_1), margin_1 = widened(d.margin + far_0);
+    w.ask(0, {rest, margin_0 < far_0 ? d.value & rest : rest, margin_0});
+    w.ask(1, {rest, margin_1 < far_1 ? d.value & rest : rest, margin_1});
 }
 
-/// |a| is a or -a where the sign of a is known.
+/// |a| is a or -a where the sign of a is known. It is as large as a.
 void absolute_demand(const Walk& w, Demand d, Record& r) {
-    const unsigned plus = d.live & w.positive(0), minus = d.live & w.negative(0);
-    r.first = static_cast<std::uint16_t>(plus);
-    r.base = static_cast<std::uint16_t>(minus);
+    r.first = static_cast<std::uint16_t>(d.live & w.positive(0));
+    r.base = static_cast<std::uint16_t>(d.live & w.negative(0));
     r.optional = 1;
-    w.ask(0, {d.live, d.value | (d.live & ~plus & ~minus)});
+    w.ask(0, d);
 }
 
 void selection_demand(const Walk& w, Demand d, Record& r) {
@@ -226,14 +194,20 @@ std::size_t reverse(const Job& job) {
     for (std::uint32_t i = job.clause_count; i-- > 0;) {
         at -= clause_bytes;
         const Walk w{job, {at}};
-        std::uint32_t& wanted = job.demand[w.clause.out()];
-        if (wanted == 0) continue;
-        const Demand d{wanted & 0xffffu, wanted >> 16};
-        wanted = 0;
-        *next =
-            Record{i, static_cast<std::uint16_t>(d.live), static_cast<std::uint16_t>(d.value), 0, 0, 0, 0};
-        demand_of(w, d, *next);
+        Wanted& row = job.wanted[w.clause.out()];
+        if ((row.live | row.inner) == 0) continue;
+        Wanted wanted = row;
+        row = Wanted{};
+        // two uses of one part of a smooth set operation, or a use besides it
+        const unsigned all_of_it = wanted.stage == mixed_stages ? wanted.inner : wanted.inner & wanted.live;
+        wanted.live |= static_cast<std::uint16_t>(all_of_it);
+        wanted.value |= static_cast<std::uint16_t>(all_of_it);
+        wanted.inner &= static_cast<std::uint16_t>(~all_of_it);
+        Record& r = *next;
         ++next;
+        r = Record{i, wanted.live, wanted.value, 0, 0, 0, 0};
+        if (wanted.live != 0) demand_of(w, {wanted.live, wanted.value, wanted.margin}, r);
+        if (wanted.inner != 0) inner_demand(w, wanted, r);
     }
     return static_cast<std::size_t>(next - job.records);
 }

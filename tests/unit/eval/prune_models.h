@@ -214,27 +214,131 @@ inline frep::Field blended_links(bool rounded, int count) {
     return s.field(s.both(s.tree(parts), 0.9 - abs(s.x(0))));
 }
 
-/// Balls united by the polynomial smooth maximum, written in arithmetic.
-inline frep::Field smooth_balls(int count) {
+/// The polynomial smooth maximum (minimum, where `mirrored`) of two fields, in arithmetic.
+inline frep::Expression smooth_maximum(frep::Expression a, frep::Expression b, double k, bool mirrored) {
+    const auto soft = square(max(k - abs(a - b), 0.0)) / (4 * k);
+    return mirrored ? min(a, b) - soft : max(a, b) + soft;
+}
+
+/// Balls united by the polynomial smooth maximum; `mirrored`: written with inside negative, then negated.
+inline frep::Field smooth_balls(int count, bool mirrored = false) {
     Sketch s(false);
     Random random(6);
     std::vector<frep::Expression> parts;
-    for (int i = 0; i < count; ++i)
-        parts.push_back(s.ball(-1 + 2.0 * i / count, random.real(-0.8, 0.8), random.real(-0.8, 0.8),
-                               random.real(0.05, 0.15)));
-    while (parts.size() > 1) {
-        std::vector<frep::Expression> next;
-        for (std::size_t i = 0; i < parts.size(); i += 2) {
-            if (i + 1 == parts.size()) {
-                next.push_back(parts[i]);
-                continue;
-            }
-            const auto a = parts[i], b = parts[i + 1];
-            next.push_back(max(a, b) + square(max(0.04 - abs(a - b), 0.0)) / 0.16);
-        }
-        parts = next;
+    for (int i = 0; i < count; ++i) {
+        const auto ball = s.ball(-1 + 2.0 * i / count, random.real(-0.8, 0.8), random.real(-0.8, 0.8),
+                                 random.real(0.05, 0.15));
+        parts.push_back(mirrored ? -ball : ball);
     }
-    return s.field(parts[0]);
+    for (std::size_t n = parts.size(); n > 1; n = (n + 1) / 2)
+        for (std::size_t i = 0; 2 * i < n; ++i)
+            parts[i] =
+                2 * i + 1 < n ? smooth_maximum(parts[2 * i], parts[2 * i + 1], 0.04, mirrored) : parts[2 * i];
+    return s.field(mirrored ? -parts[0] : parts[0]);
 }
+
+/// The skin of a solid, `thickness` to both sides.
+inline frep::Field skin_of(const frep::Field& solid, double thickness) {
+    auto graph = std::make_shared<frep::Graph>();
+    std::vector<frep::NodeId> renamed(solid.graph->size());
+    frep::Field skin = solid;
+    *graph = solid.graph->copy_of(std::vector<bool>(solid.graph->size(), true), renamed);
+    const auto size = graph->make(frep::Op::abs, {renamed[solid.value]});
+    skin.value = graph->make(frep::Op::sub, {graph->constant(thickness), size});
+    skin.graph = graph;
+    return skin;
+}
+
+/// A random solid of set operations of all kinds, with what may stand between them: offsets, factors,
+/// negations, sizes, choices, smooth ones, blends; on balls and planes, some of them undefined in places.
+class RandomSolid {
+  public:
+    explicit RandomSolid(std::uint64_t seed) : random_(seed), sketch_(true) {}
+
+    frep::Field make() {
+        std::vector<E> pool;
+        const std::size_t leaves = 3 + random_.below(12);
+        for (std::size_t i = 0; i < leaves; ++i) pool.push_back(leaf());
+        while (pool.size() > 1) {
+            // operands that are kept may be shared
+            const E a = take(pool);
+            const E b = random_.chance(85) ? take(pool) : pool[random_.below(pool.size())];
+            pool.push_back(between(joined(a, b, pool)));
+        }
+        return sketch_.field(pool[0]);
+    }
+
+  private:
+    using E = frep::Expression;
+
+    E number(double c) { return sketch_.number(c); }
+    E take(std::vector<E>& pool) {
+        const std::size_t i = random_.below(pool.size());
+        const E e = pool[i];
+        pool.erase(pool.begin() + static_cast<std::ptrdiff_t>(i));
+        return e;
+    }
+    E leaf() {
+        const double a = random_.real(-1, 1), b = random_.real(-1, 1), c = random_.real(-1, 1);
+        if (random_.chance(20)) return a * sketch_.x(0) + b * sketch_.x(1) + c * sketch_.x(2) + 0.3;
+        if (random_.chance(5)) return sqrt(sketch_.x(0) + a) - 0.5;
+        if (random_.chance(10)) return square(sketch_.x(0)) + b * sketch_.x(1);
+        return sketch_.ball(a, b, c, random_.real(0.1, 0.6));
+    }
+    E joined(E a, E b, const std::vector<E>& pool) {
+        using frep::Op;
+        const auto other = [&] { return pool.empty() ? leaf() : pool[random_.below(pool.size())]; };
+        const double k = random_.real(0.05, 0.3);
+        switch (random_.below(12)) {
+            case 0:
+            case 1:
+                return min(a, b);
+            case 2:
+            case 3:
+                return max(a, b);
+            case 4:
+                return r_and(a, b);
+            case 5:
+                return r_or(a, b);
+            case 6:
+                return min(a, -b);
+            case 7:
+                return smooth_maximum(a, b, k, random_.chance(50));
+            case 8:
+                return apply(random_.chance(50) ? Op::bounded_uni : Op::bounded_int,
+                             {a, b, leaf(), number(k), number(1), number(1), number(1)});
+            case 9:
+                return apply(random_.chance(50) ? Op::point_uni : Op::point_int,
+                             {a, b, number(k), number(0.3), number(0.3)});
+            case 10:
+                return select(less(other(), k), a, b);
+            default:
+                return random_.chance(50) ? a * b : a / (1.5 + square(b));
+        }
+    }
+    E between(E e) {
+        switch (random_.below(12)) {
+            case 0:
+                return e + random_.real(-0.1, 0.1);
+            case 1:
+                return random_.real(0, 0.1) - abs(e);
+            case 2:
+                return random_.real(-2, 2) * e;
+            case 3:
+                return e / random_.real(-2, 2);
+            case 4:
+                return -e;
+            case 5:
+                return 0.05 - e;
+            case 6:
+                return e - 0.2 * leaf();
+            default:
+                return e;
+        }
+    }
+
+    Random random_;
+    Sketch sketch_;
+};
 
 }  // namespace frep_test

@@ -308,7 +308,23 @@ TEST_CASE("cut tapes of models stand for them") {
             check_purposes(blended_links(rounded, 12), seed);
         }
     }
-    for (std::uint64_t seed = 0; seed < 12; ++seed) check_purposes(smooth_balls(30), seed);
+    for (std::uint64_t seed = 0; seed < 12; ++seed) {
+        check_purposes(smooth_balls(30), seed);
+        check_purposes(smooth_balls(30, true), seed);
+        check_purposes(skin_of(smooth_balls(30), 0.01), seed);
+        check_purposes(skin_of(machined_part(seed % 2 == 0), 0.02), seed);
+    }
+}
+
+TEST_CASE("cut tapes of random solids stand for them") {
+    const std::uint64_t solids = 500 * scale(40);
+    for (std::uint64_t seed = 0; seed < solids; ++seed) {
+        const Field field = RandomSolid(seed).make();
+        check_purposes(field, seed);
+        Random random(seed);
+        CAPTURE(seed);
+        check_ranges(*make_clause_tape(field), 3, random, 4);
+    }
 }
 
 TEST_CASE("surface and gradients of cut tapes are those of the field") {
@@ -317,6 +333,8 @@ TEST_CASE("surface and gradients of cut tapes are those of the field") {
     check_surface(many_balls(true, 40), 1e-9);
     check_surface(blended_links(true, 12), 1e-9);
     check_surface(smooth_balls(30), 1e-9);
+    check_surface(skin_of(machined_part(false), 0.02), 1e-9);
+    check_surface(skin_of(smooth_balls(30, true), 0.01), 1e-9);
 }
 
 TEST_CASE("all instruction sets give the same ranges, groups and tapes") {
