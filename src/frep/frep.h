@@ -19,8 +19,12 @@
 #include "frep/contour/contour_2d.h"
 #include "frep/contour/mesh_error.h"
 #include "frep/contour/slices.h"
+#include "frep/eval/batch_vm.h"
+#include "frep/eval/clause_tape.h"
 #include "frep/eval/evaluator.h"
+#include "frep/eval/isa.h"
 #include "frep/eval/plane.h"
+#include "frep/eval/prune.h"
 #include "frep/eval/sampled_field.h"
 #include "frep/field/expression.h"
 #include "frep/field/field.h"
@@ -46,6 +50,8 @@
 #include "frep/trace/plane_picture.h"
 #include "frep/trace/plane_render.h"
 #include "frep/trace/solid_picture.h"
+#include "frep/trace/tile_depth.h"
+#include "frep/trace/tile_sign.h"
 
 namespace frep {
 

@@ -46,6 +46,7 @@ class Translator {
 
     void translate(const std::vector<NodeId>& order, ClauseTape& tape) {
         RowNumber next = data_.first_value_row();
+        tape.clauses.reserve(order.size() - std::min(order.size(), data_.constants.size()) + 1);
         for (const NodeId id : order) {
             const Node& node = graph_.node(id);
             if (node.op == Op::coordinate) row_of_[id] = data_.coordinate_row(static_cast<int>(node.payload));
