@@ -1,0 +1,92 @@
+// Tests of contour/adaptive.h: known solids, hostile data, cap, walls, merging, determinism.
+#include "frep/contour/adaptive.h"
+
+#include <doctest/doctest.h>
+
+#include "unit/contour/adaptive_checks.h"
+
+using namespace frep;
+using namespace frep::test;
+
+namespace {
+
+/// Uncorrelated values at the lattice points of `cells` cells on [-1, 1]^3, constant around them.
+FunctionField noise_field(std::uint64_t seed, int cells, double share_inside = 0.5, double share_nan = 0) {
+    return FunctionField([=](double x, double y, double z) {
+        const auto index = [=](double v) {
+            return static_cast<std::uint64_t>(std::floor((v + 1) * 0.5 * cells + 0.5) + 100);
+        };
+        const std::uint64_t i = (index(z) * 1000 + index(y)) * 1000 + index(x);
+        if (noise(seed + 77, i) < 2 * share_nan - 1) return undefined;
+        return noise(seed, i) + 2 * share_inside - 1;
+    });
+}
+
+}  // namespace
+
+TEST_CASE("a sphere: closed, near to the surface, with normals") {
+    const FunctionField sphere = generic_field(sphere_function(1));
+    for (const int cells : {5, 16, 40}) {
+        CAPTURE(cells);
+        const ContourResult r = adaptive(sphere, {.bounds = Box3::cube(1.3), .cells = cells});
+        const MeshReport report = sound_and_closed(r.mesh);
+        CHECK(report.euler_characteristic == 2);
+        CHECK(report.components == 1);
+        const double h = 2.6 / cells;
+        for (std::size_t v = 0; v < r.mesh.vertices.size(); ++v) {
+            const Vec3 p = r.mesh.vertices[v];
+            CHECK(std::abs(length(p) - 1) < 0.4 * h * h);
+            CHECK(dot(p, r.mesh.normals[v]) / length(p) > 1 - h * h);
+        }
+        CHECK(report.volume.value() == doctest::Approx(4.18879).epsilon(h * h));
+    }
+}
+
+TEST_CASE("noise gives a closed manifold without self-intersections under the cap") {
+    for (std::uint64_t seed = 0; seed < 6; ++seed) {
+        CAPTURE(seed);
+        const FunctionField field = noise_field(seed, 10);
+        const ContourResult r = adaptive(field, {.bounds = Box3::cube(1), .cells = 10, .cap = true});
+        sound_and_closed(r.mesh);
+        CHECK(r.mesh.triangles.size() > 2000);
+        const MeshReport open = sound(adaptive(field, {.bounds = Box3::cube(1), .cells = 10}).mesh);
+        CHECK(open.boundary_edges > 0);
+        CHECK(r.touches == std::array<bool, 6>{true, true, true, true, true, true});
+    }
+    for (const double share : {0.05, 0.2, 0.8, 0.95}) {
+        CAPTURE(share);
+        sound_and_closed(
+            adaptive(noise_field(5, 12, share), {.bounds = Box3::cube(1), .cells = 12, .cap = true}).mesh);
+        sound_and_closed(
+            adaptive(noise_field(5, 12, share, 0.3), {.bounds = Box3::cube(1), .cells = 12, .cap = true}).mesh);
+    }
+}
+
+TEST_CASE("merging keeps noise sound") {
+    for (std::uint64_t seed = 0; seed < 6; ++seed) {
+        for (const double share : {0.02, 0.1, 0.5, 0.9}) {
+            CAPTURE(seed);
+            CAPTURE(share);
+            const FunctionField field = noise_field(seed, 14, share);
+            sound_and_closed(
+                adaptive(field, {.bounds = Box3::cube(1), .cells = 14, .tolerance = 10, .cap = true}).mesh);
+            sound(adaptive(field, {.bounds = Box3::cube(1), .cells = 14, .tolerance = 10}).mesh);
+        }
+    }
+}
+
+TEST_CASE("the edges and corners of a box are kept") {
+    const FunctionField box([](double x, double y, double z) {
+        // Turned about two axes.
+        const double u = 0.8 * x + 0.6 * y, v = -0.6 * x + 0.8 * y;
+        const double p = 0.96 * u + 0.28 * z, q = -0.28 * u + 0.96 * z;
+        return 0.7 - std::max(std::abs(p), std::max(std::abs(v), std::abs(q)));
+    });
+    for (const int cells : {12, 33}) {
+        CAPTURE(cells);
+        const ContourResult r = adaptive(box, {.bounds = Box3::cube(1.4), .cells = cells});
+        const MeshReport report = sound_and_closed(r.mesh);
+        CHECK(report.euler_characteristic == 2);
+        CHECK(report.volume.value() == doctest::Approx(1.4 * 1.4 * 1.4).epsilon(cells == 12 ? 5e-3 : 1e-3));
+    }
+}
