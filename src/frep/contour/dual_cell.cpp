@@ -68,8 +68,8 @@ SheetPlane plane_between(const CellPattern& pattern, std::size_t sheet, std::siz
         if (squares == 0) continue;
         const Extent below = extent_of(pattern, sheet, normal);
         const Extent above = extent_of(pattern, other, normal);
-        const bool apart = below.high < above.low ||
-                           (below.high == above.low && below.high_is_open && above.low_is_open);
+        const bool apart =
+            below.high < above.low || (below.high == above.low && below.high_is_open && above.low_is_open);
         const int gap = above.low - below.high;
         const double width = static_cast<double>(gap * gap) / squares;
         if (!apart || width <= widest) continue;
@@ -120,8 +120,8 @@ CellPattern make_pattern(unsigned inside) {
         std::size_t count = 0;
         for (std::size_t other = 0; other < pattern.sheets; ++other) {
             if (other == s) continue;
-            pattern.planes[s][count++] = s < other ? plane_between(pattern, s, other)
-                                                   : turned_over(plane_between(pattern, other, s));
+            pattern.planes[s][count++] =
+                s < other ? plane_between(pattern, s, other) : turned_over(plane_between(pattern, other, s));
         }
     }
     return pattern;

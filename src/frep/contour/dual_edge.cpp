@@ -52,10 +52,15 @@ bool passes(const Corner& c, const Corner& n, const Corner& a, const Span& span)
     return h >= low + margin && h <= high - margin;
 }
 
-/// Cuts the polygon a b c d along a - c; `at`: where the edge passes.
+/// Whether the polygon a b c d may be cut along a - c; `at`: where the edge passes.
 bool cuts(const Corner& a, const Corner& b, const Corner& c, const Corner& d, const Span& span, double& at) {
-    if (pierces(a, b, c, span, at)) return passes(c, d, a, span);
-    return pierces(a, c, d, span, at) && passes(a, b, c, span);
+    constexpr double nothing = 1e-12;  // the cut meets the edge itself
+    const double side = turn(c, a);
+    if (side > nothing) return pierces(a, b, c, span, at) && passes(c, d, a, span);
+    if (side < -nothing) return pierces(a, c, d, span, at) && passes(a, b, c, span);
+    const double from_a = magnitude(a.u) + magnitude(a.v), from_c = magnitude(c.u) + magnitude(c.v);
+    at = a.h + from_a / (from_a + from_c) * (c.h - a.h);
+    return at >= span.low + span.margin && at <= span.high - span.margin;
 }
 
 double squared_distance(const Corner& a, const Corner& b) {

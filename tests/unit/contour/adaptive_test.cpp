@@ -3,6 +3,7 @@
 
 #include <doctest/doctest.h>
 
+#include "frep/contour/mesh_error.h"
 #include "unit/contour/adaptive_checks.h"
 
 using namespace frep;
@@ -58,19 +59,27 @@ TEST_CASE("noise gives a closed manifold without self-intersections under the ca
         sound_and_closed(
             adaptive(noise_field(5, 12, share), {.bounds = Box3::cube(1), .cells = 12, .cap = true}).mesh);
         sound_and_closed(
-            adaptive(noise_field(5, 12, share, 0.3), {.bounds = Box3::cube(1), .cells = 12, .cap = true}).mesh);
+            adaptive(noise_field(5, 12, share, 0.3), {.bounds = Box3::cube(1), .cells = 12, .cap = true})
+                .mesh);
     }
 }
 
-TEST_CASE("merging keeps noise sound") {
+TEST_CASE("merging keeps noise sound, and its topology") {
     for (std::uint64_t seed = 0; seed < 6; ++seed) {
-        for (const double share : {0.02, 0.1, 0.5, 0.9}) {
+        for (const double share : {0.02, 0.1, 0.5, 0.9, 0.98}) {
             CAPTURE(seed);
             CAPTURE(share);
             const FunctionField field = noise_field(seed, 14, share);
-            sound_and_closed(
-                adaptive(field, {.bounds = Box3::cube(1), .cells = 14, .tolerance = 10, .cap = true}).mesh);
-            sound(adaptive(field, {.bounds = Box3::cube(1), .cells = 14, .tolerance = 10}).mesh);
+            for (const bool cap : {false, true}) {
+                const ContourOptions fine{.bounds = Box3::cube(1), .cells = 14, .cap = cap};
+                ContourOptions merging = fine;
+                merging.tolerance = 10;
+                const MeshReport a = sound(adaptive(field, fine).mesh);
+                const MeshReport b = sound(adaptive(field, merging).mesh);
+                CHECK(a.components == b.components);
+                CHECK(a.euler_characteristic == b.euler_characteristic);
+                if (cap) CHECK(b.boundary_edges == 0);
+            }
         }
     }
 }
@@ -88,5 +97,42 @@ TEST_CASE("the edges and corners of a box are kept") {
         const MeshReport report = sound_and_closed(r.mesh);
         CHECK(report.euler_characteristic == 2);
         CHECK(report.volume.value() == doctest::Approx(1.4 * 1.4 * 1.4).epsilon(cells == 12 ? 5e-3 : 1e-3));
+    }
+}
+
+TEST_CASE("flat sides and straight edges merge") {
+    const FunctionField box([](double x, double y, double z) {
+        const double u = 0.8 * x + 0.6 * y, v = -0.6 * x + 0.8 * y;
+        return 0.6 - std::max(std::abs(u), std::max(std::abs(v), std::abs(z)));
+    });
+    const ContourOptions fine{.bounds = Box3::cube(1.1), .cells = 64};
+    ContourOptions merging = fine;
+    merging.tolerance = 1e-3;
+    const MeshReport a = sound_and_closed(adaptive(box, fine).mesh);
+    const MeshReport b = sound_and_closed(adaptive(box, merging).mesh);
+    CHECK(b.triangles * 8 < a.triangles);
+    CHECK(b.euler_characteristic == 2);
+    CHECK(b.volume.value() == doctest::Approx(1.728).epsilon(2e-3));
+}
+
+TEST_CASE("the merged mesh stays within the tolerance") {
+    const auto solid = [](auto x, auto y, auto z) {
+        using math::max;
+        return max(sphere_function(0.7)(x, y, z), torus_function(0.7, 0.25)(x, y, z));
+    };
+    const FunctionField field = generic_field(solid);
+    for (const double tolerance : {1e-3, 4e-3, 1e-2}) {
+        CAPTURE(tolerance);
+        const ContourResult r =
+            adaptive(field, {.bounds = Box3::cube(1), .cells = 64, .tolerance = tolerance});
+        sound_and_closed(r.mesh);
+        MeshErrorOptions options;
+        options.grid = r.grid;
+        options.samples = 20000;
+        Job job;
+        job.threads = 1;
+        const auto error = measure_mesh_error(field, r.mesh, options, job);
+        REQUIRE(static_cast<bool>(error));
+        CHECK(error->largest().value() < 1.5 * tolerance);
     }
 }
