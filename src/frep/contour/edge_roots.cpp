@@ -5,10 +5,17 @@ namespace frep::contouring {
 
 namespace {
 
-constexpr int most_steps = 31;         // bisection needs 30 to reach root_width
+constexpr int most_steps = 32;         // bisection needs 30 to reach root_width
 constexpr double secant_shift = 1e-3;  // towards the middle, times the squared width
 
-/// The next point to try in a bracket after `step` steps. Both slacks of the method: see the header.
+/// The value that the secant takes for the end that stays where it is, after the other end's value went from
+/// `old` to `now`: scaled down, so that the end is soon replaced too (Anderson and Bjorck 1973).
+void shrink(double old, double now, double& kept) {
+    const double scale = 1 - now / old;
+    kept *= scale > 0 && scale <= 1 ? scale : 0.5;
+}
+
+/// The next point to try in a bracket after `step` steps.
 double next_try(double low, double high, double low_value, double high_value, int step) {
     const double width = high - low, middle = low + 0.5 * width;
     const double secant = low + width * (low_value / (low_value - high_value));
@@ -21,7 +28,7 @@ double next_try(double low, double high, double low_value, double high_value, in
     const double sign = to_middle < 0 ? -1 : 1;
     const double tried = moved <= distance ? secant + sign * moved : middle;
     const double reach =
-        0.5 * root_width * static_cast<double>(std::uint64_t{1} << (most_steps - step)) - 0.5 * width;
+        0.5 * root_width * static_cast<double>(std::uint64_t{1} << (most_steps - 1 - step)) - 0.5 * width;
     const double off = middle - tried;
     if ((off < 0 ? -off : off) <= reach) return tried;
     return reach > 0 ? middle - sign * reach : middle;
@@ -48,14 +55,15 @@ void EdgeRoots::find(SampledField& field, const std::vector<CrossedEdge>& edges,
     brackets_.clear();
     active_.clear();
     for (std::size_t i = 0; i < edges.size(); ++i) {
-        brackets_.push_back({0, 1, edges[i].lower_value, edges[i].upper_value});
+        const double low = edges[i].lower_value, high = edges[i].upper_value;
+        brackets_.push_back({0, 1, low, high, low, high});
         active_.push_back(static_cast<std::uint32_t>(i));
     }
     for (int step = 0; step < most_steps && !active_.empty(); ++step) {
         for (std::vector<double>* column : {&x_, &y_, &z_, &t_}) column->clear();
         for (const std::uint32_t i : active_) {
             const Bracket& b = brackets_[i];
-            place(edges[i], next_try(b.low, b.high, b.low_value, b.high_value, step));
+            place(edges[i], next_try(b.low, b.high, b.low_weight, b.high_weight, step));
         }
         values_.resize(t_.size());
         field.values({x_, y_, z_}, values_);
@@ -64,8 +72,10 @@ void EdgeRoots::find(SampledField& field, const std::vector<CrossedEdge>& edges,
             const std::uint32_t i = active_[k];
             Bracket& b = brackets_[i];
             const bool is_low = (values_[k] >= 0) == (b.low_value >= 0);
+            shrink(is_low ? b.low_value : b.high_value, values_[k], is_low ? b.high_weight : b.low_weight);
             (is_low ? b.low : b.high) = t_[k];
             (is_low ? b.low_value : b.high_value) = values_[k];
+            (is_low ? b.low_weight : b.high_weight) = values_[k];
             if (b.high - b.low > root_width) active_[left++] = i;
         }
         active_.resize(left);

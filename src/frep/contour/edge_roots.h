@@ -1,6 +1,6 @@
 // EdgeRoots: where the surface crosses edges of the lattice, all edges of a block in a few batches. Each edge
 // keeps a bracket of an inside and an outside point. A step tries the point of the secant, moved a little
-// towards the middle and held so near to it that bisection is never beaten by more than one step (the ITP
+// towards the middle and held so near to it that bisection never needs more than two steps less (the ITP
 // method of Oliveira and Takahashi 2020, "An enhancement of the bisection method average performance
 // preserving minmax optimality"). Where a value is not finite it is the middle. Every edge is searched from
 // its lower to its upper end, alone: the result does not depend on the batch.
@@ -40,6 +40,7 @@ class EdgeRoots {
   private:
     struct Bracket {
         double low, high, low_value, high_value;
+        double low_weight, high_weight;  ///< the values, as the secant takes them
     };
     void place(const CrossedEdge& edge, double t);
 

@@ -4,7 +4,9 @@
 #include <doctest/doctest.h>
 
 #include "frep/contour/mesh_error.h"
+#include "frep/geom/bvh.h"
 #include "unit/contour/adaptive_checks.h"
+#include "unit/contour/csg_trees.h"
 
 using namespace frep;
 using namespace frep::test;
@@ -135,4 +137,95 @@ TEST_CASE("the merged mesh stays within the tolerance") {
         REQUIRE(static_cast<bool>(error));
         CHECK(error->largest().value() < 1.5 * tolerance);
     }
+}
+
+TEST_CASE("the same bytes for every number of threads, with and without pruning") {
+    for (const std::uint64_t seed : {3u, 7u, 12u}) {
+        CAPTURE(seed);
+        const auto field = sampled(random_solid(seed, seed == 7));
+        for (const double tolerance : {0.0, 4e-3}) {
+            ContourOptions options{.bounds = Box3::cube(csg_bounds), .cells = 50, .tolerance = tolerance};
+            const ContourResult one = adaptive(*field, options);
+            CHECK(one.mesh.triangles.size() > 500);
+            for (const int threads : {2, 3, 8}) CHECK(same_bytes(one, adaptive(*field, options, threads)));
+            options.prune = false;
+            const ContourResult full = adaptive(*field, options, 2);
+            CHECK(full.mesh.triangles == one.mesh.triangles);
+            REQUIRE(full.mesh.vertices.size() == one.mesh.vertices.size());
+            for (std::size_t v = 0; v < full.mesh.vertices.size(); ++v)
+                REQUIRE(length(full.mesh.vertices[v] - one.mesh.vertices[v]) <= 1e-9 * 2 * csg_bounds);
+            CHECK(full.sampled_blocks > one.sampled_blocks);
+        }
+    }
+}
+
+namespace {
+
+/// A drilled, turned plate: y = a turn of x about z; and points of its sharp edges.
+struct Part {
+    double cosine = 0.8, sine = 0.6;
+    double operator()(double x, double y, double z) const {
+        const double u = cosine * x + sine * y, v = cosine * y - sine * x;
+        const double plate = std::min(0.7 - std::abs(u), std::min(0.5 - std::abs(v), 0.2 - std::abs(z)));
+        return std::min(plate, std::hypot(u - 0.1, v) - 0.3);
+    }
+    Vec3 at(double u, double v, double z) const { return {cosine * u - sine * v, sine * u + cosine * v, z}; }
+
+    std::vector<Vec3> edge_points(int count) const {
+        std::vector<Vec3> points;
+        for (int i = 0; i < count; ++i) {
+            const double s = -1 + 2 * (i + 0.5) / count, angle = 3.14159265358979 * s;
+            for (const double a : {-1.0, 1.0}) {
+                for (const double b : {-1.0, 1.0}) {
+                    points.push_back(at(0.7 * s, 0.5 * a, 0.2 * b));
+                    points.push_back(at(0.7 * a, 0.5 * s, 0.2 * b));
+                    points.push_back(at(0.7 * a, 0.5 * b, 0.2 * s));
+                }
+                points.push_back(at(0.1 + 0.3 * std::cos(angle), 0.3 * std::sin(angle), 0.2 * a));
+            }
+        }
+        return points;
+    }
+};
+
+}  // namespace
+
+TEST_CASE("points of sharp edges lie on the mesh") {
+    const Part part;
+    const FunctionField field(part);
+    for (const int cells : {64, 128}) {
+        CAPTURE(cells);
+        const ContourResult r = adaptive(field, {.bounds = Box3::cube(1), .cells = cells});
+        const MeshReport report = sound_and_closed(r.mesh);
+        CHECK(report.genus == 1.0);
+        const TriangleBvh tree(r.mesh);
+        std::vector<double> distances;
+        for (const Vec3& p : part.edge_points(500)) distances.push_back(tree.nearest(p)->distance);
+        std::sort(distances.begin(), distances.end());
+        const double p99 = distances[distances.size() * 99 / 100];
+        CAPTURE(distances.back());
+        // 2e-4 at cells of 2 / 256; chords of the bore's rim fall with the square.
+        const double coarse = 256.0 / cells;
+        CHECK(p99 <= 2e-4 * coarse);
+        CHECK(distances.back() <= 0.1 * 2.0 / cells);
+    }
+}
+
+TEST_CASE("what cannot be meshed is refused") {
+    const FunctionField sphere = generic_field(sphere_function(1));
+    Job job;
+    job.threads = 1;
+    const auto error_of = [&](const ContourOptions& options) {
+        const auto result = contour_adaptive(sphere, options, job);
+        REQUIRE(!result);
+        return result.error().kind;
+    };
+    CHECK(error_of({.bounds = Box3::cube(-1)}) == ErrorKind::invalid_argument);
+    CHECK(error_of({.bounds = Box3::cube(2), .cells = 0}) == ErrorKind::invalid_argument);
+    CHECK(error_of({.bounds = Box3::cube(2), .tolerance = -1}) == ErrorKind::invalid_argument);
+    CHECK(error_of({.bounds = Box3::cube(2), .tolerance = undefined}) == ErrorKind::invalid_argument);
+    CHECK(error_of({.bounds = Box3::cube(2), .cells = 200, .memory_limit = 1 << 20}) ==
+          ErrorKind::over_limit);
+    job.cancel();
+    CHECK(error_of({.bounds = Box3::cube(2)}) == ErrorKind::cancelled);
 }

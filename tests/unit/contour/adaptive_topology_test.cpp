@@ -45,7 +45,7 @@ const Topology one_ball{1, 2}, two_balls{2, 4}, nothing{0, 0};
 std::vector<Case> touching() {
     return {
         {"spheres tangent at a lattice point",
-         [](double x, double y, double z) { return max(ball(x - 0.5, y, z, 0.5), ball(x + 0.5, y, z, 0.5)); },
+         [](double x, double y, double z) { return max(ball(x - 0.4, y, z, 0.4), ball(x + 0.4, y, z, 0.4)); },
          {two_balls, one_ball},
          20},
         {"spheres tangent off the lattice",
@@ -329,7 +329,8 @@ std::vector<Case> genus() {
 
 void try_all(const std::vector<Case>& cases) {
     for (const Case& c : cases) {
-        CAPTURE(c.name);
+        const std::string name = c.name;
+        CAPTURE(name);
         for (const double tolerance : {0.0, 1e-3, 0.02}) {
             CAPTURE(tolerance);
             const FunctionField field(c.f);
