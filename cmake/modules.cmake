@@ -1,8 +1,11 @@
+include(${CMAKE_CURRENT_LIST_DIR}/isa.cmake)
+
 # frep_module(NAME DEPENDS ...): the static library frep_NAME from src/frep/NAME/*.cpp.
 # A new source file needs no line here.
 function(frep_module name)
   cmake_parse_arguments(arg "" "" "DEPENDS" ${ARGN})
   file(GLOB sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/frep/${name}/*.cpp)
+  frep_isa_flags(${sources})
   add_library(frep_${name} STATIC ${sources})
   frep_library_settings(frep_${name} ${arg_DEPENDS})
 endfunction()

@@ -6,6 +6,7 @@
 #include <mutex>
 
 #include "frep/base/parallel.h"
+#include "frep/contour/block.h"
 #include "frep/contour/dual_block.h"
 #include "frep/contour/dual_mesh.h"
 #include "frep/contour/field_pool.h"
@@ -17,7 +18,7 @@ namespace {
 
 using namespace contouring;
 
-constexpr std::size_t blocks_a_task = 16;
+constexpr std::size_t blocks_a_task = 16;  // as many as are narrowed in one pass
 /// Estimated peak memory for a crossing of an edge with its share of vertices and triangles.
 constexpr std::size_t bytes_a_crossing = 200;
 /// And for an attribute of it: at the crossing, at vertices, as a color.
@@ -39,7 +40,7 @@ struct Sampling {
 };
 
 Sampling sample_blocks(const Grid& grid, const std::vector<std::uint64_t>& codes, FieldPool& fields,
-                       const DualOptions& options, std::size_t memory_limit, const Job& job) {
+                       const DualOptions& options, bool prune, std::size_t memory_limit, const Job& job) {
     Sampling result;
     std::vector<std::unique_ptr<DualBlock>> all(codes.size());
     const std::size_t tasks = (codes.size() + blocks_a_task - 1) / blocks_a_task;
@@ -52,11 +53,17 @@ Sampling sample_blocks(const Grid& grid, const std::vector<std::uint64_t>& codes
         if (over_limit) return;
         const FieldPool::Lease field = fields.borrow();
         DualSampler sampler(grid, options);
+        const std::size_t first = t * blocks_a_task;
+        std::vector<FieldPart> parts;
+        for (std::size_t i = first; i < std::min(first + blocks_a_task, codes.size()); ++i)
+            parts.push_back({block_box(grid, codes[i]), nullptr});
+        std::vector<SignRange> ranges(parts.size());
+        if (prune) narrow_parts(*field, parts, ranges);
         std::size_t made = 0;
-        const std::size_t end = std::min((t + 1) * blocks_a_task, codes.size());
-        for (std::size_t i = t * blocks_a_task; i < end; ++i) {
-            all[i] = sampler.sample(codes[i], *field);
-            if (all[i]) made += all[i]->roots.size();
+        for (std::size_t i = 0; i < parts.size(); ++i) {
+            std::unique_ptr<DualBlock>& block = all[first + i];
+            block = sampler.sample(codes[first + i], parts[i].field ? *parts[i].field : *field, *field);
+            if (block) made += block->roots.size();
         }
         if ((crossings += made) > memory_limit / crossing_bytes) over_limit = true;
         const std::lock_guard lock(mutex);
@@ -109,7 +116,8 @@ Result<ContourResult> contour_adaptive(const SampledField& field, const ContourO
     dual.attributes = std::min(options.attributes, field.attribute_count());
     dual.margin = margin_of(*grid);
     dual.tolerance = options.tolerance / grid->cell;
-    Sampling sampling = sample_blocks(*grid, octree->blocks, fields, dual, options.memory_limit, job);
+    Sampling sampling =
+        sample_blocks(*grid, octree->blocks, fields, dual, options.prune, options.memory_limit, job);
     if (job.cancelled()) return Error{ErrorKind::cancelled, "contouring was cancelled"};
     if (sampling.over_limit) {
         return Error{ErrorKind::over_limit,

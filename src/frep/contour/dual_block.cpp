@@ -59,24 +59,24 @@ void DualSampler::place(std::uint64_t code) {
     }
 }
 
-std::unique_ptr<DualBlock> DualSampler::sample(std::uint64_t code, SampledField& field) {
+std::unique_ptr<DualBlock> DualSampler::sample(std::uint64_t code, SampledField& part, SampledField& field) {
     place(code);
-    if (!take_values(code, field)) return nullptr;
+    if (!take_values(code, part)) return nullptr;
     auto block = std::make_unique<DualBlock>();
     block->code = code;
     collect_edges(*block);
     collect_cells(*block);
     if (block->roots.empty() && block->cells.empty()) return nullptr;
-    finder_.find(field, crossed_, found_);
+    finder_.find(part, crossed_, found_);
     for (std::size_t i = 0; i < found_.size(); ++i) block->roots[crossed_at_[i]] = found_[i].inside;
-    take_normals(*block, field);
+    take_normals(*block, part);
     take_attributes(*block, field);
     if (options_.tolerance > 0) find_mergeable(*block);
     return block;
 }
 
 /// The values at the corners of the block's cells. False when there is no surface among them.
-bool DualSampler::take_values(std::uint64_t code, SampledField& field) {
+bool DualSampler::take_values(std::uint64_t code, SampledField& part) {
     for (std::vector<double>* column : {&x_, &y_, &z_}) column->clear();
     const Lattice end{last_[0] + 1, last_[1] + 1, last_[2] + 1};
     for (std::uint32_t z = first_[2]; z < end[2]; ++z) {
@@ -91,7 +91,7 @@ bool DualSampler::take_values(std::uint64_t code, SampledField& field) {
         }
     }
     out_.resize(x_.size());
-    field.values({x_, y_, z_}, out_);
+    part.values({x_, y_, z_}, out_);
     if (x_.size() < size) values_.fill(outside_by_decree);
     const double* next = out_.data();
     for_each(first_, end, [&](const Lattice& l) { values_[index(l)] = *next++; });
@@ -165,7 +165,7 @@ void DualSampler::add_edge(DualBlock& block, const Lattice& lower, std::size_t a
 
 /// Normals from the gradients at the inside ends. A wall, where F ends without a zero, has nothing to do with
 /// the gradient; its normals stay unknown.
-void DualSampler::take_normals(DualBlock& block, SampledField& field) {
+void DualSampler::take_normals(DualBlock& block, SampledField& part) {
     const std::size_t count = crossed_.size();
     for (std::vector<double>* v : {&x_, &y_, &z_, &out_, &gx_, &gy_, &gz_}) v->resize(count);
     for (std::size_t i = 0; i < count; ++i) {
@@ -175,7 +175,7 @@ void DualSampler::take_normals(DualBlock& block, SampledField& field) {
         z_[i] = p.z;
     }
     if (count == 0) return;
-    field.gradients({x_, y_, z_}, out_, {gx_, gy_, gz_});
+    part.gradients({x_, y_, z_}, out_, {gx_, gy_, gz_});
     for (std::size_t i = 0; i < count; ++i) {
         if (found_[i].is_wall) continue;
         block.normals[crossed_at_[i]] = outward_normal({gx_[i], gy_[i], gz_[i]});

@@ -97,9 +97,10 @@ class DualSampler {
   public:
     DualSampler(const Grid& grid, const DualOptions& options) : grid_(grid), options_(options) {}
 
-    /// The block with this code, without vertices; null when nothing crosses it. `field` may be one that is
-    /// right on the closed box of the block's cells only. Adds to the tallies below.
-    std::unique_ptr<DualBlock> sample(std::uint64_t code, SampledField& field);
+    /// The block with this code, without vertices; null when nothing crosses it. `part` is asked for values
+    /// and gradients: the field, or what stands for it in the closed box of the block (block_box of block.h).
+    /// Adds to the tallies below.
+    std::unique_ptr<DualBlock> sample(std::uint64_t code, SampledField& part, SampledField& field);
 
     UndefinedTally undefined;
     std::array<bool, 6> touches{};
@@ -114,11 +115,11 @@ class DualSampler {
     Vec3 point(const Lattice& l) const;
 
     void place(std::uint64_t code);
-    bool take_values(std::uint64_t code, SampledField& field);
+    bool take_values(std::uint64_t code, SampledField& part);
     void note_samples(std::uint64_t code);
     void collect_edges(DualBlock& block);
     void add_edge(DualBlock& block, const Lattice& lower, std::size_t axis);
-    void take_normals(DualBlock& block, SampledField& field);
+    void take_normals(DualBlock& block, SampledField& part);
     void take_attributes(DualBlock& block, SampledField& field);
     void collect_cells(DualBlock& block);
     unsigned signs_at(const Lattice& lower, std::uint32_t step) const;

@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <array>
 #include <cstring>
+#include <optional>
 
+#include "frep/eval/clause_tape.h"
 #include "frep/eval/float_control.h"
 #include "frep/eval/vm.h"
 
@@ -23,8 +25,9 @@ constexpr std::size_t memory_limit = std::size_t{2} << 30;
 /// What clones share.
 struct Program {
     Field field;
-    Tape f;    ///< F alone
-    Tape all;  ///< F and the attributes, when asked for
+    Tape f;                             ///< F alone
+    Tape all;                           ///< F and the attributes, when asked for
+    std::optional<ClauseTape> clauses;  ///< of F, in single assignment
     bool attributes = false;
     std::int64_t max_steps = 0;
     const Tape& values() const { return attributes ? all : f; }
@@ -50,6 +53,7 @@ class Vm final : public Evaluator {
     std::unique_ptr<Evaluator> clone() const override { return std::make_unique<Vm>(program_); }
     int coordinates() const override { return program_->field.coordinates; }
     int outputs() const override { return static_cast<int>(program_->values().outputs.size()); }
+    const ClauseTape* clauses() const override { return program_->clauses ? &*program_->clauses : nullptr; }
 
     void values(std::span<const double* const> coordinates, std::size_t count,
                 std::span<double* const> out) override {
@@ -158,6 +162,7 @@ Result<std::unique_ptr<Evaluator>> make_vm(const Field& field, const EvaluatorOp
     auto f = make_tape(field, {&field.value, 1}, tape_options);
     if (!f) return f.error();
     program->f = std::move(*f);
+    program->clauses = make_clause_tape(field);
     if (options.attributes) {
         auto all = make_tape(field, field.roots(), tape_options);
         if (!all) return all.error();

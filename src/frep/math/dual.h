@@ -35,11 +35,12 @@ struct MaskOf<Dual<T>> {
     using type = mask_t<T>;
 };
 
-/// x clamped to +-DBL_MAX, and 0 for NaN: a finite number whatever comes in.
-template <LaneType T>
+/// x clamped to the largest finite numbers, and 0 for NaN: a finite number whatever comes in.
+template <AnyLaneType T>
 inline T finite(T x) {
-    const T low = select(less(x, T(-max_finite)), T(-max_finite), x);
-    const T both = select(less(T(max_finite), low), T(max_finite), low);
+    const T most(format_of<T>::max_finite);
+    const T low = select(less(x, -most), -most, x);
+    const T both = select(less(most, low), most, low);
     return select(is_nan(x), T(0.0), both);
 }
 /// The chain rule for f(a): value f, local partial fa.
@@ -88,8 +89,9 @@ inline Dual<T> pick(M m, const Dual<T>& a, const Dual<T>& b) {
 inline Dual<double> select(bool m, const Dual<double>& a, const Dual<double>& b) {
     return dual_detail::pick(m, a, b);
 }
-template <int N>
-inline Dual<LanesN<N>> select(LaneMask<N> m, const Dual<LanesN<N>>& a, const Dual<LanesN<N>>& b) {
+template <class E, int N>
+inline Dual<LanesOf<E, N>> select(LaneMaskOf<E, N> m, const Dual<LanesOf<E, N>>& a,
+                                  const Dual<LanesOf<E, N>>& b) {
     return dual_detail::pick(m, a, b);
 }
 

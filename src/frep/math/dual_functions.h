@@ -61,7 +61,7 @@ inline Dual<T> tanh(const Dual<T>& a) {
 
 namespace dual_detail {
 /// A pair scaled onto the unit circle: (a, b)/hypot(a, b); (0, 0) stays (0, 0), infinities count as equal.
-template <LaneType T>
+template <AnyLaneType T>
 inline void unit_pair(T a, T b, T& u, T& v, T& length) {
     const T m = select(less(abs(a), abs(b)), abs(b), abs(a));
     const auto endless = equal(m, T(infinity));
@@ -74,7 +74,7 @@ inline void unit_pair(T a, T b, T& u, T& v, T& length) {
     length = select(nought, T(0.0), m * h);
 }
 /// 1 - u for a point (u, v) of the unit circle, without cancellation.
-template <LaneType T>
+template <AnyLaneType T>
 inline T one_minus(T u, T v) {
     return select(less(T(0.0), u), v * v / (1.0 + u), 1.0 - u);
 }

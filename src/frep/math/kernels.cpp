@@ -21,20 +21,33 @@ inline T hypot(T a, T b) {
 }
 }  // namespace kernel
 
+// The width of the engines, and that of one register where it is more.
+#if defined(__AVX512F__)
+#define FREP_MATH_WIDTHS(name)          \
+    template LanesN<4> name(LanesN<4>); \
+    template LanesN<8> name(LanesN<8>);
+#define FREP_MATH_WIDTHS_2(name)                   \
+    template LanesN<4> name(LanesN<4>, LanesN<4>); \
+    template LanesN<8> name(LanesN<8>, LanesN<8>);
+#else
+#define FREP_MATH_WIDTHS(name) template LanesN<4> name(LanesN<4>);
+#define FREP_MATH_WIDTHS_2(name) template LanesN<4> name(LanesN<4>, LanesN<4>);
+#endif
+
 #define FREP_MATH_UNARY(name)                         \
     double name(double x) { return kernel::name(x); } \
     template <int N>                                  \
     LanesN<N> name(LanesN<N> x) {                     \
         return kernel::name(x);                       \
     }                                                 \
-    template LanesN<4> name(LanesN<4>);
+    FREP_MATH_WIDTHS(name)
 #define FREP_MATH_BINARY(name)                                     \
     double name(double a, double b) { return kernel::name(a, b); } \
     template <int N>                                               \
     LanesN<N> name(LanesN<N> a, LanesN<N> b) {                     \
         return kernel::name(a, b);                                 \
     }                                                              \
-    template LanesN<4> name(LanesN<4>, LanesN<4>);
+    FREP_MATH_WIDTHS_2(name)
 
 FREP_MATH_UNARY(exp)
 FREP_MATH_UNARY(log)
@@ -59,5 +72,8 @@ LanesN<N> powi(LanesN<N> x, int n) {
     return kernel::powi(x, n);
 }
 template LanesN<4> powi(LanesN<4>, int);
+#if defined(__AVX512F__)
+template LanesN<8> powi(LanesN<8>, int);
+#endif
 
 FREP_MATH_CLOSE

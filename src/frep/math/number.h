@@ -6,4 +6,5 @@
 #include "frep/math/functions.h"
 #include "frep/math/interval.h"
 #include "frep/math/rfunctions.h"
+#include "frep/math/single/functions.h"
 #include "frep/math/vec.h"

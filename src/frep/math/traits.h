@@ -12,25 +12,40 @@ template <class T>
 struct MaskOf {
     using type = bool;
 };
-template <int N>
-struct MaskOf<LanesN<N>> {
-    using type = LaneMask<N>;
+template <class E, int N>
+struct MaskOf<LanesOf<E, N>> {
+    using type = LaneMaskOf<E, N>;
 };
 /// bool, LaneMask<N>, IntervalMask (interval.h), or the mask of T for Dual<T> (dual.h).
 template <class T>
 using mask_t = typename MaskOf<T>::type;
 
-/// The integers that hold the bits of a T: uint64_t or LaneWords<N>.
+/// The integers that hold the bits of a T: uint64_t or LaneWordsOf.
 template <class T>
 struct WordOf {
     using type = std::uint64_t;
 };
-template <int N>
-struct WordOf<LanesN<N>> {
-    using type = LaneWords<N>;
+template <class E, int N>
+struct WordOf<LanesOf<E, N>> {
+    using type = LaneWordsOf<E, N>;
 };
 template <class T>
 using word_t = typename WordOf<T>::type;
+
+/// What one lane of a T is: double, or float where a lane type says so.
+template <class T>
+struct ItemOf {
+    using type = double;
+};
+template <class E, int N>
+struct ItemOf<LanesOf<E, N>> {
+    using type = E;
+};
+template <class T>
+using item_t = typename ItemOf<T>::type;
+/// The facts of its format.
+template <class T>
+using format_of = Format<item_t<T>>;
 
 /// The number c as a T. An Interval constant that is NaN is empty; a Dual constant has derivative 0.
 template <class T>
@@ -62,8 +77,8 @@ inline double select(bool m, double a, double b) { return m ? a : b; }
 inline bool mask_of_low_bit(std::uint64_t w) { return (w & 1) != 0; }
 /// The bits of each lane, and back.
 inline std::uint64_t bits_of(double x) { return to_bits(x); }
-template <int N>
-inline LaneWords<N> bits_of(LanesN<N> x) {
+template <class E, int N>
+inline LaneWordsOf<E, N> bits_of(LanesOf<E, N> x) {
     return x.bits();
 }
 /// Makes a T of its bits; a new lane type specialises it.
@@ -85,8 +100,8 @@ template <class F>
 inline double patch(bool m, double r, double x, F f) {
     return __builtin_expect(m, 0) ? f(x) : r;
 }
-template <int N, class F>
-inline LanesN<N> patch(LaneMask<N> m, LanesN<N> r, LanesN<N> x, F f) {
+template <class E, int N, class F>
+inline LanesOf<E, N> patch(LaneMaskOf<E, N> m, LanesOf<E, N> r, LanesOf<E, N> x, F f) {
     if (__builtin_expect(any(m), 0)) {
         for (int i = 0; i < N; ++i) {
             if (m[i]) r.set(i, f(x[i]));
@@ -99,8 +114,8 @@ template <class F>
 inline double patch(bool m, double r, double x, double y, F f) {
     return __builtin_expect(m, 0) ? f(x, y) : r;
 }
-template <int N, class F>
-inline LanesN<N> patch(LaneMask<N> m, LanesN<N> r, LanesN<N> x, LanesN<N> y, F f) {
+template <class E, int N, class F>
+inline LanesOf<E, N> patch(LaneMaskOf<E, N> m, LanesOf<E, N> r, LanesOf<E, N> x, LanesOf<E, N> y, F f) {
     if (__builtin_expect(any(m), 0)) {
         for (int i = 0; i < N; ++i) {
             if (m[i]) r.set(i, f(x[i], y[i]));

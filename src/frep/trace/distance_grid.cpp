@@ -44,27 +44,29 @@ double volume(const Box3& box) {
 
 /// The hull of the coarse cells of `clip` that may hold some of the solid.
 Hull find_hull(SampledField& field, const Box3& clip) {
-    std::vector<Box3> boxes{clip}, children;
+    std::vector<FieldPart> parts{{clip, nullptr}}, children;
     std::vector<SignRange> ranges;
     for (int level = 0; level <= coarse_levels; ++level) {
-        ranges.resize(boxes.size());
-        field.ranges(boxes, ranges);
+        ranges.resize(parts.size());
+        narrow_parts(field, parts, ranges);
         Hull hull;
         double undecided = 0;
         children.clear();
-        for (std::size_t i = 0; i < boxes.size(); ++i) {
+        for (std::size_t i = 0; i < parts.size(); ++i) {
             if (!ranges[i].can_be_inside) continue;
-            hull.box = hull.is_empty ? boxes[i] : joined(hull.box, boxes[i]);
+            const Box3& box = parts[i].box;
+            hull.box = hull.is_empty ? box : joined(hull.box, box);
             hull.is_empty = false;
-            if (ranges[i].can_be_outside || ranges[i].can_be_undefined) undecided += volume(boxes[i]);
-            for (unsigned c = 0; c < 8 && level < coarse_levels; ++c) children.push_back(octant(boxes[i], c));
+            if (ranges[i].can_be_outside || ranges[i].can_be_undefined) undecided += volume(box);
+            for (unsigned c = 0; c < 8 && level < coarse_levels; ++c)
+                children.push_back({octant(box, c), parts[i].field});
         }
         if (hull.is_empty) return hull;
         if (level == coarse_levels) {
             hull.undecided = undecided / volume(hull.box);
             return hull;
         }
-        boxes = children;
+        parts.swap(children);
     }
     return {};
 }
@@ -130,50 +132,56 @@ void DistanceGrid::place(const Box3& hull, int cells) {
     states_.assign(size(0) * size(1) * size(2), CellState::outside);
 }
 
+/// The part of the box of some cells that lies in the clip box; its min is above its max when there is none.
+Box3 DistanceGrid::clipped_box(std::array<int, 3> lo, int side) const {
+    const Box3 box = cell_box(lo, side);
+    return {{std::max(box.min.x, clip_.min.x), std::max(box.min.y, clip_.min.y),
+             std::max(box.min.z, clip_.min.z)},
+            {std::min(box.max.x, clip_.max.x), std::min(box.max.y, clip_.max.y),
+             std::min(box.max.z, clip_.max.z)}};
+}
+
 /// Blocks of cells, then their halves, a row of blocks a task.
 void DistanceGrid::classify(FieldPool& fields, const Job& job) {
     const int bx = cells_[0] / block, by = cells_[1] / block, bz = cells_[2] / block;
     parallel_for(job, static_cast<std::size_t>(by * bz), [&](std::size_t task) {
         const FieldPool::Lease field = fields.borrow();
         const int j0 = static_cast<int>(task) % by * block, k0 = static_cast<int>(task) / by * block;
-        std::vector<std::array<int, 3>> parts, next;
-        for (int i = 0; i < bx; ++i) parts.push_back({i * block, j0, k0});
-        std::vector<Box3> boxes;
+        std::vector<std::array<int, 3>> corners, next_corners;
+        std::vector<FieldPart> parts, next;
         std::vector<SignRange> ranges;
+        const auto add = [&](std::array<int, 3> lo, int side, const std::shared_ptr<SampledField>& of) {
+            const Box3 box = clipped_box(lo, side);
+            if (box.min.x > box.max.x || box.min.y > box.max.y || box.min.z > box.max.z) return;
+            next_corners.push_back(lo);
+            next.push_back({box, of});
+        };
+        for (int i = 0; i < bx; ++i) add({i * block, j0, k0}, block, nullptr);
         for (int side = block; side >= finest; side /= 2) {
-            boxes.clear();
-            next.clear();
-            std::erase_if(parts, [&](const std::array<int, 3>& lo) {
-                const Box3 box = cell_box(lo, side);
-                return box.min.x > clip_.max.x || box.max.x < clip_.min.x || box.min.y > clip_.max.y ||
-                       box.max.y < clip_.min.y || box.min.z > clip_.max.z || box.max.z < clip_.min.z;
-            });
-            for (const auto& lo : parts) {
-                const Box3 box = cell_box(lo, side);
-                boxes.push_back({{std::max(box.min.x, clip_.min.x), std::max(box.min.y, clip_.min.y),
-                                  std::max(box.min.z, clip_.min.z)},
-                                 {std::min(box.max.x, clip_.max.x), std::min(box.max.y, clip_.max.y),
-                                  std::min(box.max.z, clip_.max.z)}});
-            }
-            ranges.resize(boxes.size());
-            if (!boxes.empty()) field->ranges(boxes, ranges);
+            corners.swap(next_corners), parts.swap(next);
+            next_corners.clear(), next.clear();
+            ranges.resize(parts.size());
+            narrow_parts(*field, parts, ranges);
             for (std::size_t b = 0; b < parts.size(); ++b) {
-                const std::array<int, 3> lo = parts[b];
-                const CellState state = judge(ranges[b], boxes[b] == cell_box(lo, side));
+                const std::array<int, 3> lo = corners[b];
+                const CellState state = judge(ranges[b], parts[b].box == cell_box(lo, side));
                 if (state == CellState::mixed && side > finest) {
+                    const int half = side / 2;
                     for (int c = 0; c < 8; ++c)
-                        next.push_back({lo[0] + (c & 1) * side / 2, lo[1] + (c >> 1 & 1) * side / 2,
-                                        lo[2] + (c >> 2) * side / 2});
-                    continue;
+                        add({lo[0] + (c & 1) * half, lo[1] + (c >> 1 & 1) * half, lo[2] + (c >> 2) * half},
+                            half, parts[b].field);
+                } else if (state != CellState::outside) {
+                    set_states(lo, side, state);
                 }
-                if (state == CellState::outside) continue;
-                for (int k = 0; k < side; ++k)
-                    for (int j = 0; j < side; ++j)
-                        for (int i = 0; i < side; ++i) state_at(lo[0] + i, lo[1] + j, lo[2] + k) = state;
             }
-            parts = next;
         }
     });
+}
+
+void DistanceGrid::set_states(std::array<int, 3> lo, int side, CellState state) {
+    for (int k = 0; k < side; ++k)
+        for (int j = 0; j < side; ++j)
+            for (int i = 0; i < side; ++i) state_at(lo[0] + i, lo[1] + j, lo[2] + k) = state;
 }
 
 /// Cells near a change of sign between corners are mixed, those between inside corners inside.
@@ -347,7 +355,7 @@ void DistanceGrid::spread(const std::vector<std::uint8_t>& band, const Job& job)
     distance_transform(squares, {corners(0), corners(1), corners(2)}, job);
     for (std::size_t p = 0; p < squares.size(); ++p)
         if (distance_[p] > 0 && (!band[p] || distance_[p] > 1))
-            distance_[p] = std::max(std::sqrt(squares[p]), band[p] ? 1.0F : 1.0F);
+            distance_[p] = std::max(std::sqrt(squares[p]), 1.0F);
 }
 
 double DistanceGrid::distance(Vec3 p) const {

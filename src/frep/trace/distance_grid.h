@@ -67,6 +67,8 @@ class DistanceGrid {
     }
     CellState& state_at(int i, int j, int k);
     Box3 cell_box(std::array<int, 3> lo, int side) const;
+    Box3 clipped_box(std::array<int, 3> lo, int side) const;
+    void set_states(std::array<int, 3> lo, int side, CellState state);
 
     void place(const Box3& hull, int cells);
     void classify(FieldPool& fields, const Job& job);

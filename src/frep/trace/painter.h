@@ -34,8 +34,8 @@ class Painter {
     struct Worker;
     /// Samples at points of the picture: x and y in pixels.
     void sample(Worker& worker, std::span<const Vec2> places, std::span<Sample> samples) const;
-    void find_normals(Worker& worker, std::span<const Ray> rays, std::span<const Hit> hits) const;
-    void find_colors(Worker& worker, std::span<const Ray> rays, std::span<const Hit> hits) const;
+    void find_normals(Worker& worker) const;
+    void find_colors(Worker& worker) const;
     Rgb hit_light(const Worker& worker, std::size_t i, const Ray& ray, const Hit& hit, Sample& sample) const;
     void backdrop(const Ray& ray, Vec2 place, Sample& sample) const;
     Rgb backdrop_light(Vec2 place) const;

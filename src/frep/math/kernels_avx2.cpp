@@ -1,0 +1,5 @@
+// The kernels once more, compiled for AVX2 (cmake/isa.cmake), in a namespace of their own (isa.h).
+#if defined(__AVX2__)
+#include "frep/math/kernels.cpp"
+#include "frep/math/trig_reduce.cpp"
+#endif
