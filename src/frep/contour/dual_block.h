@@ -54,12 +54,16 @@ constexpr Lattice local_of(std::uint32_t number) {
     return {number % block_side, number / block_side % block_side, number / (block_side * block_side)};
 }
 
+inline constexpr std::uint8_t no_wish = 255;
+
 /// A cell that the surface crosses.
 struct DualCell {
-    std::uint16_t number = 0;  ///< in the block
-    std::uint8_t signs = 0;    ///< as for cell_pattern()
-    std::uint8_t level = 0;    ///< its leaf has the side 2^level
-    std::uint32_t vertex = 0;  ///< of its first sheet, in DualBlock::vertices
+    std::uint16_t number = 0;     ///< in the block
+    std::uint8_t signs = 0;       ///< as for cell_pattern()
+    std::uint8_t level = 0;       ///< its leaf has the side 2^level
+    std::uint8_t wish = no_wish;  ///< the face, numbered as in dual_cell.h, through which an edge leaves it
+    std::uint8_t granted = no_wish;  ///< the wish, if its leaf is this cell and the one behind that face
+    std::uint32_t vertex = 0;        ///< of its first sheet, in DualBlock::vertices
 };
 
 /// A vertex of a sheet.
@@ -79,8 +83,16 @@ struct DualBlock {
     /// Cubes of cells that may become one leaf, as far as the signs tell: bit i of entry k is the cube i, in
     /// x, y, z order, of side 2^(k + 1).
     std::array<std::uint64_t, 3> mergeable{};
+    /// Those that did, and hold a surface.
+    std::array<std::uint64_t, 3> merged{};
     std::vector<DualVertex> vertices;
     std::vector<double> vertex_attributes;
+    /// Cells with wishes (by rank), and where their vertices belong.
+    struct Wish {
+        std::uint32_t cell = 0;
+        Vec3 position;
+    };
+    std::vector<Wish> wishes;
     std::vector<std::uint8_t> edge_states;  ///< by rank of the edge; see dual_mesh.cpp
     RankedSet<24> kept_edges;               ///< edges whose crossing is a vertex of the mesh
 };

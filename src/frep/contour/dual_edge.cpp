@@ -169,8 +169,13 @@ bool EdgeStar::is_turned(std::size_t q) const {
     const double margin = 0.5 * around_.margin;
     for (std::size_t axis = 0; axis < 3; ++axis) {
         if (axis == f.normal) continue;
-        const double start = static_cast<double>(small.leaf_start(axis) - origin[axis]);
-        const double end = start + static_cast<double>(small.size());
+        double start = static_cast<double>(small.leaf_start(axis) - origin[axis]);
+        double end = start + static_cast<double>(small.size());
+        // Both leaves may go on behind faces side by side (dual_vertices.h); then so does their common face.
+        if (f.below->cell->granted == f.above->cell->granted) {
+            if (small.cell->granted == 2 * axis) start -= 1;
+            if (small.cell->granted == 2 * axis + 1) end += 1;
+        }
         const double c = component(at, axis);
         if (!(c >= start + margin && c <= end - margin)) return false;
     }

@@ -29,6 +29,8 @@ class Joiner {
         for_blocks([this](std::uint32_t begin, std::uint32_t end) { make_vertices(begin, end); });
         if (job_.cancelled()) return cancelled();
         if (contradiction_) return contradiction();
+        for_blocks([this](std::uint32_t begin, std::uint32_t end) { grant_wishes(begin, end); });
+        if (job_.cancelled()) return cancelled();
         if (!number_leaves()) return too_many();
         for_blocks([this](std::uint32_t begin, std::uint32_t end) { decide_edges(begin, end); });
         if (job_.cancelled()) return cancelled();
@@ -72,6 +74,19 @@ class Joiner {
                 next[n] = b == BlockIndex::none ? nullptr : blocks_[b].get();
             }
             if (!vertices.make(*blocks_[i], next)) contradiction_ = true;
+        }
+    }
+
+    void grant_wishes(std::uint32_t begin, std::uint32_t end) {
+        const DualVertices vertices(options_);
+        for (std::uint32_t i = begin; i < end; ++i) {
+            if (blocks_[i]->wishes.empty()) continue;
+            const std::array<std::uint32_t, 27> ranks = index_.around(i);
+            std::array<const DualBlock*, 27> around{};
+            for (std::size_t n = 0; n < 27; ++n) {
+                if (ranks[n] != BlockIndex::none) around[n] = blocks_[ranks[n]].get();
+            }
+            vertices.grant_wishes(*blocks_[i], around, grid_.cells);
         }
     }
 

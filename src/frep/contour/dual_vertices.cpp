@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 #include "frep/contour/cell.h"
 #include "frep/contour/dual_cell.h"
@@ -28,19 +29,50 @@ Vec3 unit(const Vec3& v) {
     return l > 0 ? v / l : Vec3{0, 0, 0};
 }
 
-/// The normal of the plane through points without known normals, towards `outward`.
-Vec3 fitted_normal(std::span<const Vec3> points, const Vec3& outward) {
-    Vec3 middle;
-    for (const Vec3& p : points) middle = middle + p;
-    middle = middle / static_cast<double>(points.size());
-    std::array<double, 6> m{};
-    for (const Vec3& p : points) {
-        const Vec3 d = p - middle;
-        const std::array<double, 6> squares{d.x * d.x, d.x * d.y, d.x * d.z, d.y * d.y, d.y * d.z, d.z * d.z};
-        for (std::size_t i = 0; i < 6; ++i) m[i] += squares[i];
+double component(const Vec3& v, std::size_t axis) { return axis == 0 ? v.x : axis == 1 ? v.y : v.z; }
+
+/// A corner of the unit cell.
+Vec3 corner_place(std::uint8_t corner) {
+    const auto& o = corner_offsets[corner];
+    return {static_cast<double>(o[0]), static_cast<double>(o[1]), static_cast<double>(o[2])};
+}
+
+/// Whether the four corners of a face have one sign.
+bool has_one_sign(unsigned signs, std::uint8_t face) {
+    static constexpr std::array<std::uint8_t, 6> corners = [] {
+        std::array<std::uint8_t, 6> sets{};
+        for (std::size_t f = 0; f < 6; ++f) {
+            for (unsigned c = 0; c < 8; ++c) {
+                if (corner_offsets[c][f / 2] == f % 2) sets[f] = static_cast<std::uint8_t>(sets[f] | 1u << c);
+            }
+        }
+        return sets;
+    }();
+    const unsigned of_face = signs & corners[face];
+    return of_face == 0 || of_face == corners[face];
+}
+
+/// The nearer of the two faces through which the line from `at`, in the unit cell, goes out, if it has one
+/// sign; else the other one, if that has; else no_wish.
+std::uint8_t way_out(unsigned signs, const Vec3& at, const Vec3& along) {
+    std::array<double, 2> ways{1e9, 1e9};
+    std::array<std::uint8_t, 2> faces{no_wish, no_wish};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const double a = component(at, axis), d = component(along, axis);
+        if (d == 0) continue;
+        for (std::size_t way = 0; way < 2; ++way) {
+            const bool is_up = (d > 0) == (way == 0);
+            const double distance = magnitude(((is_up ? 1 : 0) - a) / d);
+            if (!(distance < ways[way])) continue;
+            ways[way] = distance;
+            faces[way] = static_cast<std::uint8_t>(2 * axis + (is_up ? 1 : 0));
+        }
     }
-    const Vec3 normal = eigen_of(m).vectors[2];
-    return dot(normal, outward) < 0 ? -normal : normal;
+    if (ways[1] < ways[0]) std::swap(faces[0], faces[1]);
+    for (const std::uint8_t face : faces) {
+        if (face != no_wish && has_one_sign(signs, face)) return face;
+    }
+    return no_wish;
 }
 
 /// The point on the way from `anchor` to `goal` that stays on the sheet's side of its planes; `lower` is the
@@ -71,12 +103,9 @@ bool DualVertices::make(DualBlock& block, const NextBlocks& next) {
     }
     block.vertices.clear();
     for (std::size_t i = 0; i < block.cells.size(); ++i) {
-        DualCell& cell = block.cells[i];
-        cell.vertex = static_cast<std::uint32_t>(block.vertices.size());
-        const std::size_t count = first_of_[i + 1] - first_of_[i];
-        const CellPattern& pattern = cell_pattern(cell.signs);
-        for (std::size_t sheet = 0; sheet < pattern.sheets; ++sheet)
-            make_sheet(block, cell, sheet, {&crossings_[first_of_[i]], count});
+        block.cells[i].vertex = static_cast<std::uint32_t>(block.vertices.size());
+        const std::size_t sheets = cell_pattern(block.cells[i].signs).sheets;
+        for (std::size_t sheet = 0; sheet < sheets; ++sheet) make_sheet(block, i, sheet);
     }
     if (options_.tolerance > 0) {
         merge(block);
@@ -121,68 +150,161 @@ bool DualVertices::collect(const DualBlock& block, const NextBlocks& next) {
     return true;
 }
 
-void DualVertices::make_sheet(DualBlock& block, const DualCell& cell, std::size_t sheet,
-                              std::span<const Crossing> all) {
+void DualVertices::make_sheet(DualBlock& block, std::size_t rank, std::size_t sheet) {
+    DualCell& cell = block.cells[rank];
     const CellPattern& pattern = cell_pattern(cell.signs);
     const Lattice corner = local_of(cell.number);
-    const Vec3 lower = position_of(corner);
-    const Box3 box = box_of(corner, 1, options_.margin);
-    const std::uint8_t* edges = &edge_of_[static_cast<std::size_t>(all.data() - crossings_.data())];
-    QuadraticError error;
-    Vec3 anchor, outward;  // the mean of the crossings held off the corners; where the edges lead out
-    std::array<Vec3, 12> points;
+    std::array<std::uint32_t, 12> all{};
     std::size_t count = 0;
-    for (std::size_t i = 0; i < all.size(); ++i) {
-        if (pattern.sheet_of[edges[i]] != sheet) continue;
-        error.add(all[i].point, all[i].normal);
-        const auto& ends = edge_corners[edges[i]];
-        const Vec3 a{static_cast<double>(corner_offsets[ends[0]][0]),
-                     static_cast<double>(corner_offsets[ends[0]][1]),
-                     static_cast<double>(corner_offsets[ends[0]][2])};
-        const Vec3 b{static_cast<double>(corner_offsets[ends[1]][0]),
-                     static_cast<double>(corner_offsets[ends[1]][1]),
-                     static_cast<double>(corner_offsets[ends[1]][2])};
-        const double t = dot(all[i].point - lower - a, b - a);
-        const double held = std::min(std::max(t, options_.margin), 1 - options_.margin);
-        anchor = anchor + lower + a + (b - a) * held;
-        outward = outward + ((cell.signs >> ends[0]) & 1u ? b - a : a - b);
-        points[count++] = all[i].point;
+    QuadraticError error;
+    for (std::uint32_t k = first_of_[rank]; k < first_of_[rank + 1]; ++k) {
+        if (pattern.sheet_of[edge_of_[k]] != sheet) continue;
+        error.add(crossings_[k].point, crossings_[k].normal);
+        all[count++] = k;
     }
-    anchor = anchor / static_cast<double>(count);
+    const std::span<const std::uint32_t> members{all.data(), count};
     DualVertex vertex;
     vertex.normal = unit(error.normal_sum());
-    if (vertex.normal == Vec3{0, 0, 0}) vertex.normal = fitted_normal({points.data(), count}, outward);
-    vertex.position = error.minimum(box);
-    if (pattern.sheets > 1) vertex.position = on_sheet_side(pattern, sheet, lower, anchor, vertex.position);
-    block.vertices.push_back(vertex);
-    if (options_.attributes > 0) {
-        std::array<std::size_t, 12> members{};
-        std::size_t n = 0;
-        for (std::size_t i = 0; i < all.size(); ++i) {
-            if (pattern.sheet_of[edges[i]] == sheet) members[n++] = i;
-        }
-        append_attributes(block, all, {members.data(), n});
+    if (vertex.normal == Vec3{0, 0, 0}) vertex.normal = fitted(cell, members);
+    QuadraticError::Free free;
+    vertex.position = error.minimum(box_of(corner, 1, options_.margin), &free);
+    if (pattern.sheets > 1) {
+        vertex.position =
+            on_sheet_side(pattern, sheet, position_of(corner), anchor(cell, members), vertex.position);
+    } else {
+        note_wish(block, rank, free);
     }
+    block.vertices.push_back(vertex);
+    append_attributes(block, members);
     if (options_.tolerance > 0) {
         Leaf& leaf = leaves_[0][cell.number];
         leaf = {error, vertex.position, pattern.is_simple(), false};
     }
 }
 
+/// The mean of the crossings, held off the corners of the cell.
+Vec3 DualVertices::anchor(const DualCell& cell, std::span<const std::uint32_t> members) const {
+    const Vec3 lower = position_of(local_of(cell.number));
+    Vec3 sum;
+    for (const std::uint32_t k : members) {
+        const Vec3 a = corner_place(edge_corners[edge_of_[k]][0]),
+                   b = corner_place(edge_corners[edge_of_[k]][1]);
+        const double t = dot(crossings_[k].point - lower - a, b - a);
+        sum = sum + lower + a + (b - a) * std::min(std::max(t, options_.margin), 1 - options_.margin);
+    }
+    return sum / static_cast<double>(members.size());
+}
+
+/// The normal of the plane through crossings without known normals, towards the outside ends of their edges.
+Vec3 DualVertices::fitted(const DualCell& cell, std::span<const std::uint32_t> members) const {
+    Vec3 middle, outward;
+    for (const std::uint32_t k : members) {
+        const auto& ends = edge_corners[edge_of_[k]];
+        const Vec3 along = corner_place(ends[1]) - corner_place(ends[0]);
+        outward = outward + ((cell.signs >> ends[0]) & 1u ? along : -along);
+        middle = middle + crossings_[k].point;
+    }
+    middle = middle / static_cast<double>(members.size());
+    std::array<double, 6> m{};
+    for (const std::uint32_t k : members) {
+        const Vec3 d = crossings_[k].point - middle;
+        const std::array<double, 6> squares{d.x * d.x, d.x * d.y, d.x * d.z, d.y * d.y, d.y * d.z, d.z * d.z};
+        for (std::size_t i = 0; i < 6; ++i) m[i] += squares[i];
+    }
+    const Vec3 normal = eigen_of(m).vectors[2];
+    return dot(normal, outward) < 0 ? -normal : normal;
+}
+
 /// The means of the defined attributes of some crossings; NaN if there is none.
-void DualVertices::append_attributes(DualBlock& block, std::span<const Crossing> all,
-                                     std::span<const std::size_t> members) {
+void DualVertices::append_attributes(DualBlock& block, std::span<const std::uint32_t> members) const {
     for (std::size_t k = 0; k < options_.attributes; ++k) {
         double sum = 0;
         std::size_t defined = 0;
-        for (const std::size_t i : members) {
-            const double value = all[i].attributes[k];
+        for (const std::uint32_t i : members) {
+            const double value = crossings_[i].attributes[k];
             if (value != value) continue;
             sum += value;
             ++defined;
         }
         block.vertex_attributes.push_back(defined > 0 ? sum / static_cast<double>(defined)
                                                       : std::numeric_limits<double>::quiet_NaN());
+    }
+}
+
+/// Notes the face through which a sharp edge leaves the cell, if its corners have one sign: the face behind
+/// which the free minimum lies, no farther than a cell, or the one through which the edge's line goes out.
+void DualVertices::note_wish(DualBlock& block, std::size_t rank, const QuadraticError::Free& free) const {
+    DualCell& cell = block.cells[rank];
+    const Vec3 at = free.point - position_of(local_of(cell.number));
+    const double low = options_.margin, high = 1 - options_.margin;
+    std::uint8_t face = no_wish;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const double c = component(at, axis);
+        if (c >= low && c <= high) continue;
+        if (face != no_wish || !(c >= low - 1 && c <= high + 1)) return;
+        face = static_cast<std::uint8_t>(2 * axis + (c > 0.5 ? 1 : 0));
+    }
+    if (face == no_wish) {
+        if (free.along == Vec3{0, 0, 0}) return;
+        face = way_out(cell.signs, at, free.along);
+        if (face == no_wish) return;
+    } else if (!has_one_sign(cell.signs, face)) {
+        return;
+    }
+    cell.wish = face;
+    block.wishes.push_back({static_cast<std::uint32_t>(rank), free.point});
+}
+
+void DualVertices::grant_wishes(DualBlock& block, const std::array<const DualBlock*, 27>& around,
+                                const Lattice& cells) const {
+    using Signed = std::array<std::int32_t, 3>;
+    const Lattice first = morton_decode(block.code);
+    const auto block_of = [&](const Signed& at, Lattice& local) {
+        std::size_t which = 0;
+        constexpr std::array<std::size_t, 3> steps{1, 3, 9};
+        for (std::size_t a = 0; a < 3; ++a) {
+            which += steps[a] * static_cast<std::size_t>((at[a] >> 3) + 1);
+            local[a] = static_cast<std::uint32_t>(at[a] & 7);
+        }
+        return around[which];
+    };
+    const auto step_of = [](std::uint8_t face) { return face % 2 == 0 ? -1 : 1; };
+    for (const DualBlock::Wish& wish : block.wishes) {
+        DualCell& cell = block.cells[wish.cell];
+        if (cell.level > 0) continue;
+        const Lattice own = local_of(cell.number);
+        Signed behind{};
+        bool is_free = true;
+        for (std::size_t a = 0; a < 3; ++a) {
+            behind[a] = static_cast<std::int32_t>(own[a]);
+            if (a == cell.wish / 2) behind[a] += step_of(cell.wish);
+            const std::int64_t whole = static_cast<std::int64_t>(first[a]) * block_side + behind[a];
+            is_free = is_free && whole >= 1 && whole <= cells[a];
+        }
+        Lattice local{};
+        const DualBlock* owner = is_free ? block_of(behind, local) : nullptr;
+        if (owner) {
+            is_free = !owner->cell_set.has(local_number(local));
+            for (std::uint32_t k = 0; k < 3 && is_free; ++k) {
+                const std::uint32_t count = block_side >> (k + 1);
+                const std::uint32_t cube =
+                    ((local[2] >> (k + 1)) * count + (local[1] >> (k + 1))) * count + (local[0] >> (k + 1));
+                is_free = !(owner->merged[k] >> cube & 1);
+            }
+        }
+        // Of several wishes for a cell the first face's counts.
+        for (std::uint8_t face = 0; face < cell.wish && is_free; ++face) {
+            Signed other = behind;
+            other[face / 2] -= step_of(face);
+            const DualBlock* there = block_of(other, local);
+            const std::uint32_t number = local_number(local);
+            if (!there || !there->cell_set.has(number)) continue;
+            const DualCell& rival = there->cells[there->cell_set.rank(number)];
+            is_free = !(rival.wish == face && rival.level == 0);
+        }
+        if (!is_free) continue;
+        cell.granted = cell.wish;
+        block.vertices[cell.vertex].position = wish.position;
     }
 }
 
@@ -198,7 +320,7 @@ void DualVertices::merge(DualBlock& block) {
     }
 }
 
-void DualVertices::merge_cube(const DualBlock& block, std::size_t level, const Lattice& cube) {
+void DualVertices::merge_cube(DualBlock& block, std::size_t level, const Lattice& cube) {
     const std::uint32_t count = block_side >> level;
     Leaf merged;
     for (std::uint32_t c = 0; c < 8; ++c) {
@@ -227,6 +349,8 @@ void DualVertices::merge_cube(const DualBlock& block, std::size_t level, const L
         }
     }
     target = merged;
+    if (!merged.is_empty)
+        block.merged[level - 1] |= std::uint64_t{1} << ((cube[2] * count + cube[1]) * count + cube[0]);
 }
 
 /// The vertices of the leaves that are left, in the order of their first cells.

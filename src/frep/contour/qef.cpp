@@ -161,8 +161,9 @@ void QuadraticError::add(const QuadraticError& other) {
     planes_ += other.planes_;
 }
 
-Vec3 QuadraticError::minimum(const Box3& box) const {
+Vec3 QuadraticError::minimum(const Box3& box, Free* without) const {
     const Vec3 middle = mean();
+    if (without) *without = {middle, {0, 0, 0}};
     if (planes_ == 0) return clamped(middle, box);
     const std::array<double, 6>& m = matrix_;
     // The pull of the planes at the mean: sum of n (n . (p - mean)).
@@ -187,6 +188,7 @@ Vec3 QuadraticError::minimum(const Box3& box) const {
         }
     }
     const Vec3 free = middle + step;
+    if (without) *without = {free, rank == 2 ? eigen.vectors[2] : Vec3{0, 0, 0}};
     if (box.contains(free)) return free;
     // The kept part of the matrix, with a small pull to the mean.
     Matrix kept{};

@@ -33,7 +33,13 @@ class QuadraticError {
     /// The sum of the normals.
     Vec3 normal_sum() const { return normals_; }
     /// The minimum in the closed box, as said above.
-    Vec3 minimum(const Box3& box) const;
+    Vec3 minimum(const Box3& box) const { return minimum(box, nullptr); }
+    /// The same, and the minimum without the box.
+    struct Free {
+        Vec3 point;
+        Vec3 along;  ///< the direction of the planes' common line if they have one, unit; else zero
+    };
+    Vec3 minimum(const Box3& box, Free* free) const;
 
   private:
     std::array<double, 6> matrix_{};  ///< sum of n n^T: xx, xy, xz, yy, yz, zz
