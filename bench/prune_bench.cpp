@@ -1,8 +1,8 @@
-// What the pruner costs and leaves on a .vm model: prune_bench MODEL.vm N TILES [sign|occupancy|value], with
-// N samples an axis over [-1,1] and TILES like 64,16,8 (sizes of the tiles of each level, in samples).
-// Classifies all of the cube (square), as docs of pruning count it: tile-ops are clauses times boxes, a leaf
-// tile is one of the last level where the sign is open. One line for each instruction set; CPU time of the
-// best of three runs.
+// What the pruner costs and leaves on a .vm model: prune_bench MODEL.vm N TILES [sign|occupancy|value
+// [RUNS]], with N samples an axis over [-1,1] and TILES like 64,16,8 (sizes of the tiles of each level, in
+// samples). Classifies all of the cube (square), as docs of pruning count it: tile-ops are clauses times
+// boxes, a leaf tile is one of the last level where the sign is open. One line for each instruction set; CPU
+// time of the best of RUNS (3) runs.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -131,7 +131,7 @@ double cpu_seconds() {
 
 int main(int argc, char** argv) {
     if (argc < 4) {
-        fmt::print(stderr, "usage: prune_bench MODEL.vm N TILES [sign|occupancy|value]\n");
+        fmt::print(stderr, "usage: prune_bench MODEL.vm N TILES [sign|occupancy|value [RUNS]]\n");
         return 2;
     }
     const auto text = read_file(argv[1], std::size_t{1} << 30);
@@ -151,6 +151,7 @@ int main(int argc, char** argv) {
     const Purpose purpose = wish == "value"       ? Purpose::value
                             : wish == "occupancy" ? Purpose::occupancy
                                                   : Purpose::sign;
+    const int runs = argc > 5 ? std::atoi(argv[5]) : 3;
     fmt::print("{} clauses\n", tape->clauses.size());
     for (const Isa isa : {Isa::sse2, Isa::avx2, Isa::avx512}) {
         if (machine_isa() < isa) continue;
@@ -158,7 +159,7 @@ int main(int argc, char** argv) {
         double best = 1e30;
         Counts counts;
         std::size_t operations = 0;
-        for (int run = 0; run < 3; ++run) {
+        for (int run = 0; run < runs; ++run) {
             const std::size_t before = classifier.tile_operations();
             const double start = cpu_seconds();
             counts = classifier.run(*tape);

@@ -27,7 +27,7 @@ std::uint32_t selection(const Job& job, Reader clause, Row& r) {
     return fc | (fb & yes) | (fd & no) | (undecided & open);
 }
 
-/// What a clause needs of its operands to have a form here: returns false where it has none.
+/// The range of a clause of two operands; false where it has no form in lanes.
 bool arithmetic(const Job& job, Reader clause, bool smooth, Row& r, std::uint32_t& f, unsigned& bad) {
     const Row &a = job.rows[clause.in(0)], &b = job.rows[clause.in(1)];
     const auto scale_of = [&](int k) {
@@ -92,6 +92,7 @@ bool arithmetic(const Job& job, Reader clause, bool smooth, Row& r, std::uint32_
     }
 }
 
+/// The range of a clause of one operand; false where it has no form in lanes.
 bool one_operand(Reader clause, const Row& a, Row& r, std::uint32_t& f, unsigned& bad) {
     switch (clause.op()) {
         case Op::neg:
