@@ -57,24 +57,29 @@ inline __attribute__((always_inline)) void loop(Kernel kernel, Source<Real> a, S
     using E = Element<T>;
     static_assert(arity >= 1 && arity <= 3);
     Real* const end = out + numbers;
+    const auto advance = [&](std::size_t elements) {
+        a.at += elements * a.step;
+        if constexpr (arity > 1) b.at += elements * b.step;
+        if constexpr (arity > 2) c.at += elements * c.step;
+    };
     if constexpr (sizeof(T) <= 64) {
         for (; out + E::numbers < end; out += 2 * E::numbers) {
             const T a0 = E::load(a.at), a1 = E::load(a.at + a.step);
-            a.at += 2 * a.step;
-            const T b0 = arity > 1 ? E::load(b.at) : a0, b1 = arity > 1 ? E::load(b.at + b.step) : a1;
-            b.at += 2 * b.step;
-            const T c0 = arity > 2 ? E::load(c.at) : a0, c1 = arity > 2 ? E::load(c.at + c.step) : a1;
-            c.at += 2 * c.step;
             if constexpr (arity == 1) {
                 E::store(kernel(a0), out);
                 E::store(kernel(a1), out + E::numbers);
-            } else if constexpr (arity == 2) {
-                E::store(kernel(a0, b0), out);
-                E::store(kernel(a1, b1), out + E::numbers);
             } else {
-                E::store(kernel(a0, b0, c0), out);
-                E::store(kernel(a1, b1, c1), out + E::numbers);
+                const T b0 = E::load(b.at), b1 = E::load(b.at + b.step);
+                if constexpr (arity == 2) {
+                    E::store(kernel(a0, b0), out);
+                    E::store(kernel(a1, b1), out + E::numbers);
+                } else {
+                    const T c0 = E::load(c.at), c1 = E::load(c.at + c.step);
+                    E::store(kernel(a0, b0, c0), out);
+                    E::store(kernel(a1, b1, c1), out + E::numbers);
+                }
             }
+            advance(2);
         }
     }
     for (; out < end; out += E::numbers) {
@@ -85,9 +90,7 @@ inline __attribute__((always_inline)) void loop(Kernel kernel, Source<Real> a, S
         } else {
             E::store(kernel(E::load(a.at), E::load(b.at), E::load(c.at)), out);
         }
-        a.at += a.step;
-        b.at += b.step;
-        c.at += c.step;
+        advance(1);
     }
 }
 
