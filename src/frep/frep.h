@@ -20,6 +20,7 @@
 #include "frep/contour/mesh_error.h"
 #include "frep/contour/slices.h"
 #include "frep/eval/evaluator.h"
+#include "frep/eval/native_code.h"
 #include "frep/eval/plane.h"
 #include "frep/eval/sampled_field.h"
 #include "frep/field/expression.h"
