@@ -24,6 +24,7 @@
 #include "frep/eval/clause_tape.h"
 #include "frep/eval/evaluator.h"
 #include "frep/eval/isa.h"
+#include "frep/eval/native_code.h"
 #include "frep/eval/plane.h"
 #include "frep/eval/prune.h"
 #include "frep/eval/sampled_field.h"

@@ -263,7 +263,7 @@ std::span<const std::uint8_t> NativeCode<Real>::bytes() const {
 /// 1 of it; what native code saves against BatchVm for such an operation at a point.
 template <class Real>
 bool native_code_pays(const ClauseTape& tape, std::size_t points) {
-    constexpr double tape_cost = 5000, operation_cost = 130;
+    constexpr double tape_cost = 5000, operation_cost = 250;
     constexpr double saved = sizeof(Real) == 4 ? 0.035 : 0.065;
     if (!NativeCode<Real>::is_available()) return false;
     const double operations = cost_of(tape);

@@ -6,6 +6,7 @@
 #include "frep/eval/native_grid.h"
 
 #include <algorithm>
+#include <bit>
 #include <memory>
 
 #include "frep/base/result.h"
@@ -22,7 +23,7 @@ constexpr std::size_t lowest_axis(std::size_t set) {
 }
 /// Bytes of tables that a part may have: within the second cache.
 constexpr std::size_t table_limit = 192 << 10;
-constexpr std::size_t most_vectors = 16, most_rows = 32;
+constexpr std::size_t most_vectors = 16, most_rows = 72;
 
 }  // namespace
 
@@ -48,7 +49,8 @@ struct GridCode<Real>::Part {
     std::array<const Real*, 3> at{};       ///< coordinates, padded to whole vectors
     std::array<Real*, axis_sets> table{};
     std::array<void*, out_pointer + 1> pointers{};
-    Real* row = nullptr;  ///< a row that does not end with a whole vector goes here first
+    bool overlap = false;  ///< what is written past the end of a row is overwritten by the next row
+    Real* row = nullptr;   ///< a row that does not end with a whole vector goes here first
     void* workspace = nullptr;
 };
 
@@ -120,6 +122,7 @@ template <class Real>
 bool GridCode<Real>::build(const ClauseTape& tape, Isa isa, std::span<const math::Interval> domain) {
     FREP_CHECK(tape.data->coordinates <= 3);
     lanes_ = (isa == Isa::avx512 ? 64 : 32) / sizeof(Real);
+    lane_bits_ = static_cast<unsigned>(std::countr_zero(lanes_));
     Translation made = translate(tape, sizeof(Real) == 4, isa == Isa::avx512, domain);
     calls_ = std::move(made.calls);
     const auto sets = sets_of(made.list, made.coordinates);
@@ -193,7 +196,8 @@ void GridCode<Real>::point_at(Part& part, std::size_t set, std::size_t y, std::s
         if (from == 5 || from == 6) row = z;
         const std::size_t along = place[lowest];
         Real* const begin = part.table[from] + row * part.vectors[lowest] * kept * lanes_;
-        part.pointers[table_pointer(from)] = begin + along / lanes_ * kept * lanes_ + along % lanes_;
+        part.pointers[table_pointer(from)] =
+            begin + (along >> lane_bits_) * kept * lanes_ + (along & (lanes_ - 1));
     }
 }
 
@@ -220,13 +224,15 @@ template <class Real>
 void GridCode<Real>::run_part(const NativeGrid<Real>& grid, Part& part) const {
     fill_tables(part);
     const bool whole = part.counts[0] % lanes_ == 0;
+    const std::size_t last_y = part.counts[1] - 1, last_z = part.counts[2] - 1;
     for (std::size_t z = 0; z < part.counts[2]; ++z) {
         for (std::size_t y = 0; y < part.counts[1]; ++y) {
             Real* const out = grid.out + z * grid.layer_stride + y * grid.row_stride;
             point_at(part, whole_set, y, z);
-            part.pointers[out_pointer] = whole ? out : part.row;
+            const bool direct = whole || (part.overlap && (y < last_y || z < last_z));
+            part.pointers[out_pointer] = direct ? out : part.row;
             call(whole_set, part, part.vectors[0]);
-            if (!whole) std::copy_n(part.row, part.counts[0], out);
+            if (!direct) std::copy_n(part.row, part.counts[0], out);
         }
     }
 }
@@ -281,6 +287,9 @@ void GridCode<Real>::run(const NativeGrid<Real>& grid) const {
                 there.out = grid.out + x + y * grid.row_stride + z * grid.layer_stride;
                 Part part;
                 place_part(part, there, begin);
+                part.overlap = columns == grid.x.size() && rows == grid.y.size() &&
+                               grid.row_stride == columns && grid.layer_stride == columns * rows &&
+                               part.vectors[0] * lanes_ - columns <= columns;
                 run_part(there, part);
             }
         }

@@ -50,6 +50,7 @@ class GridCode {
     void call(std::size_t set, Part& part, std::size_t vectors) const;
 
     std::size_t lanes_ = 0;
+    unsigned lane_bits_ = 0;
     std::vector<CallContext> calls_;
     CodeMemory memory_;
     std::size_t workspace_ = 0;

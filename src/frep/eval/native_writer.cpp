@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "frep/base/result.h"
+#include "frep/eval/native_order.h"
 
 namespace frep::native {
 
@@ -29,35 +30,41 @@ FunctionWriter::Class FunctionWriter::class_of(ValueId v) const {
 
 bool FunctionWriter::is_constant(ValueId v) const { return list_.steps()[v].op == StepOp::constant; }
 
-/// Backward: what the targets need, and for every operand the next step that reads it.
-void FunctionWriter::find_uses() {
+/// What the targets need, in the order in which it will be written.
+void FunctionWriter::find_order() {
     const auto& steps = list_.steps();
     const auto count = static_cast<std::uint32_t>(steps.size());
-    live_.assign(count, false);
-    first_following_.assign(count + 1, 0);
-    for (const Target& target : plan_.targets) {
-        live_[target.value] = true;
-        homes_[target.value].next_use = count;
-    }
-    std::vector<std::uint32_t> operands(count, 0);
+    std::vector<bool> live(count, false);
+    for (const Target& target : plan_.targets) live[target.value] = true;
+    std::size_t hard = 0;
+    bool calls = false;
     for (std::uint32_t i = count; i-- > 0;) {
         if (is_constant(i)) homes_[i].given = true;
-        if (!live_[i] || homes_[i].given) continue;
-        for (const ValueId v : list_.operands_of(steps[i])) live_[v] = true;
+        if (!live[i] || homes_[i].given) continue;
+        order_.push_back(i);
+        for (const ValueId v : list_.operands_of(steps[i])) live[v] = true;
+        calls = calls || steps[i].op == StepOp::call;
+        hard += steps[i].op >= StepOp::scale && steps[i].op <= StepOp::low_bit ? 1 : 0;
     }
-    for (std::uint32_t i = 0; i < count; ++i) {
-        const bool written = live_[i] && !homes_[i].given;
-        first_following_[i + 1] =
-            first_following_[i] +
-            (written ? static_cast<std::uint32_t>(list_.operands_of(steps[i]).size()) : 0);
-    }
-    following_.resize(first_following_[count]);
-    for (std::uint32_t i = count; i-- > 0;) {
-        if (!live_[i] || homes_[i].given) continue;
+    std::reverse(order_.begin(), order_.end());
+    // Kernels of functions are long chains, and have bit operations and comparisons; minima and sums of short
+    // terms are none, and a call leaves no registers.
+    if (calls || hard * 40 < order_.size()) return;
+    order_ = interleaved(list_, order_, wide_ ? 26 : 12, wide_ ? 6 : 0);
+}
+
+/// Backward: for every operand the place of the next step that reads it.
+void FunctionWriter::find_uses() {
+    const auto& steps = list_.steps();
+    const auto count = static_cast<std::uint32_t>(order_.size());
+    first_following_.assign(steps.size(), 0);
+    for (const Target& target : plan_.targets) homes_[target.value].next_use = count;
+    for (std::uint32_t place = count; place-- > 0;) {
+        const ValueId i = order_[place];
         const auto in = list_.operands_of(steps[i]);
-        for (std::size_t k = 0; k < in.size(); ++k)
-            following_[first_following_[i] + k] = homes_[in[k]].next_use;
-        for (const ValueId v : in) homes_[v].next_use = i;
+        first_following_[i] = static_cast<std::uint32_t>(following_.size());
+        for (const ValueId v : in) following_.push_back(homes_[v].next_use);
+        for (const ValueId v : in) homes_[v].next_use = place;
         if (steps[i].op == StepOp::call)
             call_area_ = std::max(call_area_, std::max<std::size_t>(in.size(), 1));
     }
@@ -187,17 +194,16 @@ void FunctionWriter::spill_everything() {
 /// Vectors that live at one time, constants aside.
 std::uint32_t FunctionWriter::most_alive() const {
     const auto& steps = list_.steps();
-    std::uint32_t alive = 0, most = 0;
-    for (std::uint32_t i = 0; i < steps.size(); ++i) {
-        if (!live_[i] || is_constant(i)) continue;
+    auto alive = static_cast<std::uint32_t>(std::min<std::size_t>(plan_.sources.size(), 3));
+    std::uint32_t most = alive;
+    for (const ValueId i : order_) {
         if (class_of(i) == vectors) most = std::max(most, ++alive);
-        if (homes_[i].given) continue;
         const auto in = list_.operands_of(steps[i]);
         for (std::size_t k = 0; k < in.size(); ++k) {
             // the last of several uses of one value by this step
             const bool again =
                 std::find(in.begin() + static_cast<std::ptrdiff_t>(k) + 1, in.end(), in[k]) != in.end();
-            if (following(i, static_cast<int>(k)) == never && !again && !is_constant(in[k]) &&
+            if (following(i, static_cast<int>(k)) == never && !again && !homes_[in[k]].given &&
                 class_of(in[k]) == vectors)
                 --alive;
         }
@@ -210,8 +216,7 @@ void FunctionWriter::pin_constants() {
     const auto& steps = list_.steps();
     std::vector<std::pair<std::uint32_t, ValueId>> uses;  // count, constant
     std::vector<std::uint32_t> count_of(steps.size(), 0);
-    for (std::uint32_t i = 0; i < steps.size(); ++i) {
-        if (!live_[i] || homes_[i].given) continue;
+    for (const ValueId i : order_) {
         if (steps[i].op == StepOp::call) return;  // no register survives it
         const Step& step = steps[i];
         if (step.op == StepOp::choose && is_constant(step.in[2])) ++count_of[step.in[2]];
@@ -234,11 +239,11 @@ void FunctionWriter::pin_constants() {
 }
 
 void FunctionWriter::write() {
+    find_order();
     find_uses();
     enter();
     check_domain();
-    for (std::uint32_t i = 0; i < list_.steps().size(); ++i)
-        if (live_[i] && !homes_[i].given) write_step(current_ = i);
+    for (current_ = 0; current_ < order_.size(); ++current_) write_step(order_[current_]);
     store_targets();
     advance();
     leave();

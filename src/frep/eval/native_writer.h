@@ -139,6 +139,7 @@ class FunctionWriter {
     };
 
     // native_writer.cpp: which values are needed and where they are
+    void find_order();
     void find_uses();
     Class class_of(ValueId v) const;
     bool is_constant(ValueId v) const;
@@ -190,11 +191,11 @@ class FunctionWriter {
     bool wide_, single_;
     std::vector<Home> homes_;
     std::vector<std::uint32_t> following_, first_following_;
-    std::vector<bool> live_;
+    std::vector<ValueId> order_;  ///< the steps to write
     std::array<std::array<ValueId, 32>, 2> held_{};
     std::array<std::uint32_t, 2> free_{}, locked_{};
     std::uint32_t pinned_ = 0;   ///< vector registers that hold constants throughout
-    std::uint32_t current_ = 0;  ///< the step under way
+    std::uint32_t current_ = 0;  ///< place of the step under way
     std::vector<std::int32_t> free_slots_;
     std::int32_t slots_ = 0;
     std::vector<Rare> rare_;      ///< written behind the loop

@@ -27,15 +27,15 @@ std::vector<Real> axis(Random& random, std::size_t count, bool wild) {
 /// Samples where the grid and the same points in columns differ.
 template <class Real>
 std::size_t differing(const ClauseTape& tape, const NativeOptions& options, std::array<std::size_t, 3> size,
-                      Random& random, bool wild) {
+                      Random& random, bool wild, bool gaps = true) {
     const auto code = NativeCode<Real>::compile(tape, options);
     REQUIRE(code.has_value());
     const auto x = axis<Real>(random, size[0], wild), y = axis<Real>(random, size[1], wild),
                z = axis<Real>(random, size[2], wild);
     // Rows and layers stand apart; what is between them must stay.
-    const std::size_t row = size[0] + 3, layer = row * size[1] + 5;
+    const std::size_t row = size[0] + (gaps ? 3 : 0), layer = row * size[1] + (gaps ? 5 : 0);
     const Real between = 12345;
-    std::vector<Real> out(layer * size[2], between);
+    std::vector<Real> out(layer * size[2] + 20, between);
     NativeGrid<Real> grid{x, y, z, out.data(), row, layer};
     code->run(grid);
     std::size_t count = 0;
@@ -51,6 +51,7 @@ std::size_t differing(const ClauseTape& tape, const NativeOptions& options, std:
             for (std::size_t i = size[0]; i < row; ++i) count += got[i] == between ? 0 : 1;
         }
     }
+    for (std::size_t i = layer * size[2]; i < out.size(); ++i) count += out[i] == between ? 0 : 1;
     return count;
 }
 
@@ -80,6 +81,8 @@ TEST_CASE("random fields on grids") {
             INFO("seed ", seed, " ", name_of(isa));
             CHECK(differing<double>(*tape, options, size, random, seed % 3 == 0) == 0);
             CHECK(differing<float>(*tape, options, size, random, seed % 3 == 0) == 0);
+            CHECK(differing<float>(*tape, options, size, random, false, false) == 0);
+            CHECK(differing<double>(*tape, options, {33, 5, 4}, random, false, false) == 0);
         }
     }
 }
