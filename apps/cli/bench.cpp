@@ -10,6 +10,7 @@
 #include "json.h"
 #include "picture_file.h"
 #include "terminal.h"
+#include "values.h"
 #include "verbs.h"
 
 namespace frep::cli {

@@ -21,15 +21,15 @@ struct BenchOptions {
 
 /// What a run of a task did, and how long it took.
 struct TaskOutcome {
-    std::string_view task;
-    std::string_view profile;  ///< "binary32", "binary64"; "mixed" for intervals
+    std::string_view task{};
+    std::string_view profile{};  ///< "binary32", "binary64"; "mixed" for intervals
     int size = 0;
     double amount = 0;            ///< of `unit`, in one run
-    std::string_view unit;        ///< "lines", "points", "boxes", "pixels", "triangles"
+    std::string_view unit{};      ///< "lines", "points", "boxes", "pixels", "triangles"
     double tile_operations = 0;   ///< clauses run on boxes in one run
     double point_operations = 0;  ///< clauses run on points in one run; of loading, the clauses made
-    Measured time;
-    Image picture;  ///< of picture and depth
+    Measured time{};
+    Image picture{};  ///< of picture and depth
 };
 
 struct BenchTask {

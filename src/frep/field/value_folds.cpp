@@ -29,7 +29,7 @@ bool keeps_sign_demand(const Graph& graph, NodeId id) {
 
 std::vector<ValueFold> value_folds(const Field& field, std::size_t least_operands) {
     const Graph& graph = *field.graph;
-    enum : std::uint8_t { sign = 1, value = 2, in_fold = 4 };
+    constexpr std::uint8_t sign = 1, value = 2, in_fold = 4;
     std::vector<std::uint8_t> demand(graph.size(), 0);
     demand[field.value] = sign;
     for (NodeId id = field.value + 1; id-- > 0;) {

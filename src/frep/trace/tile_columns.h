@@ -63,6 +63,15 @@ class ColumnMarch {
         lane_[rays_] = static_cast<std::uint8_t>(lane);
         ++rays_;
     }
+    /// The same for `count` pixels in a row, from pixel `pixel`.
+    void add_row(const Real* x, Real y, std::size_t count, std::size_t pixel, int lane) {
+        std::copy_n(x, count, x_.data() + rays_);
+        std::fill_n(y_.data() + rays_, count, y);
+        std::fill_n(before_.data() + rays_, count, std::numeric_limits<Real>::quiet_NaN());
+        std::fill_n(lane_.data() + rays_, count, static_cast<std::uint8_t>(lane));
+        for (std::size_t i = 0; i < count; ++i) pixel_[rays_ + i] = static_cast<std::uint32_t>(pixel + i);
+        rays_ += count;
+    }
     std::size_t rays() const { return rays_; }
 
     /// Follows the rays from layer `front` to layer `back`. With `is_before`, layer `front` holds no hit:

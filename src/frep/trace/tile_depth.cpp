@@ -255,9 +255,15 @@ class Worker {
         const bool all = left == (right - leaf.x) * (below - leaf.y);
         for (int y = leaf.y; y < below; ++y) {
             const std::size_t row = space_->pixel(0, y);
+            if (all) {
+                march_.add_row(space_->x.rounded.data() + leaf.x,
+                               space_->y.rounded[static_cast<std::size_t>(y)],
+                               static_cast<std::size_t>(right - leaf.x), space_->pixel(leaf.x, y), lane);
+                continue;
+            }
             for (int x = leaf.x; x < right; ++x) {
                 const auto at = static_cast<std::size_t>(x);
-                if (all || space_->out->layers[row + at] == 0)
+                if (space_->out->layers[row + at] == 0)
                     march_.add(space_->x.rounded[at], space_->y.rounded[static_cast<std::size_t>(y)],
                                row + at, lane);
             }

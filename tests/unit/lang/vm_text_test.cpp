@@ -208,7 +208,8 @@ TEST_CASE("the R-functions of the shared benchmarks lift completely") {
     if (folder.empty()) return;
     for (const auto& [sums, min_max] :
          {std::pair("rcsg100.vm", "csg100.vm"), {"runion1000.vm", "union1000.vm"}}) {
-        CAPTURE(sums);
+        const std::string name = sums;
+        CAPTURE(name);
         const lang::Lowered plain = lowered(folder / sums, false), lifted = lowered(folder / sums, true);
         const Field twin = lowered(folder / min_max, true).field;
         CHECK(plain.lifted.total() == 0);

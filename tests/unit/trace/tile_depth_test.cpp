@@ -65,7 +65,8 @@ void check_model(const TileModel& model) {
     CAPTURE(model.name);
     for (const auto& [width, height, layers] :
          {std::array{1, 1, 1}, {7, 3, 5}, {40, 33, 64}, {130, 70, 100}, {64, 64, 257}}) {
-        CAPTURE(width);
+        const int side = width;
+        CAPTURE(side);
         DepthPictureOptions options = sized(width, height, layers);
         const DepthPicture pruned = picture<Real>(model.tape, options);
         options.prune = false;

@@ -69,7 +69,8 @@ void check_model(const TileModel& model) {
     for (const auto& [width, height] :
          {std::pair(1, 1), {5, 3}, {64, 64}, {100, 37}, {130, 257}, {300, 300}}) {
         for (const bool tell : {false, true}) {
-            CAPTURE(width);
+            const int side = width;
+            CAPTURE(side);
             CAPTURE(tell);
             SignPictureOptions options = sized(width, height);
             options.tell_undefined = tell;
