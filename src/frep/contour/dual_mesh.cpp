@@ -32,6 +32,7 @@ class Joiner {
         for_blocks([this](std::uint32_t begin, std::uint32_t end) { grant_wishes(begin, end); });
         if (job_.cancelled()) return cancelled();
         if (!number_leaves()) return too_many();
+        parts_.resize(tasks());
         for_blocks([this](std::uint32_t begin, std::uint32_t end) { decide_edges(begin, end); });
         if (job_.cancelled()) return cancelled();
         if (contradiction_) return contradiction();
@@ -113,18 +114,20 @@ class Joiner {
         for (std::uint32_t& lo : s.lo) lo *= block_side;
         s.cells = grid_.cells;
         s.cap = options_.cap;
+        s.is_inner = true;
+        for (std::size_t a = 0; a < 3; ++a)
+            s.is_inner = s.is_inner && s.lo[a] >= block_side && s.lo[a] + block_side <= grid_.cells[a];
         s.margin = options_.margin;
         s.keep_distance = options_.tolerance > 0 ? options_.tolerance : keep_distance;
         return s;
     }
 
-    /// Calls visit(star, number, rank) for every edge of block i.
+    /// Lets `star` look at every edge of a set and calls visit(number, rank in the set).
     template <class Visit>
-    void for_edges(std::uint32_t i, EdgeStar& star, Visit visit) {
-        const DualBlock& block = *blocks_[i];
+    void for_edges(const RankedSet<24>& edges, EdgeStar& star, Visit visit) {
         std::uint32_t rank = 0;
-        for (std::uint32_t w = 0; w < block.edges.bits.size(); ++w) {
-            for (std::uint64_t left = block.edges.bits[w]; left != 0; left &= left - 1) {
+        for (std::uint32_t w = 0; w < edges.bits.size(); ++w) {
+            for (std::uint64_t left = edges.bits[w]; left != 0; left &= left - 1) {
                 const std::uint32_t number = w * 64 + static_cast<std::uint32_t>(std::countr_zero(left));
                 if (!star.look(number)) {
                     contradiction_ = true;
@@ -141,10 +144,15 @@ class Joiner {
             const Surroundings around = surroundings(i);
             EdgeStar star(around);
             block.edge_states.assign(block.roots.size(), 0);
-            for_edges(i, star, [&](std::uint32_t number, std::uint32_t rank) {
+            std::vector<Triangle>& out = parts_[begin / blocks_a_task].polygons;
+            for_edges(block.edges, star, [&](std::uint32_t number, std::uint32_t rank) {
                 const std::uint8_t state = star.state();
                 block.edge_states[rank] = state;
-                if (state & State::kept) block.kept_edges.insert(number);
+                if (state & State::kept) {
+                    block.kept_edges.insert(number);
+                } else if (!(state & State::dead)) {
+                    add_polygon(star, state, out);
+                }
             });
             block.kept_edges.count();
         }
@@ -154,8 +162,7 @@ class Joiner {
         std::uint64_t total = 0;
         for (const auto& block : blocks_) {
             first_edge_.push_back(static_cast<std::uint32_t>(total));
-            for (const std::uint64_t word : block->kept_edges.bits)
-                total += static_cast<std::uint64_t>(std::popcount(word));
+            for (const std::uint64_t word : block->kept_edges.bits) total += bit_count(word);
             if (total + leaves_ >= vertex_limit) return false;
         }
         result_.edge_vertices = static_cast<std::size_t>(total);
@@ -226,31 +233,34 @@ class Joiner {
         }
     }
 
+    /// The fans, and with the polygons all triangles: those of 32 blocks, polygons first, then the next.
     void make_triangles() {
-        std::vector<std::vector<Triangle>> parts(tasks());
         for_blocks([&](std::uint32_t begin, std::uint32_t end) {
-            for (std::uint32_t i = begin; i < end; ++i) cut_block(i, parts[begin / blocks_a_task]);
+            std::vector<Triangle>& out = parts_[begin / blocks_a_task].fans;
+            for (std::uint32_t i = begin; i < end; ++i) add_fans(i, out);
         });
         std::size_t total = 0;
-        for (const auto& part : parts) total += part.size();
-        result_.mesh.triangles.reserve(total);
-        for (std::vector<Triangle>& part : parts) {
-            result_.mesh.triangles.insert(result_.mesh.triangles.end(), part.begin(), part.end());
+        for (const Part& part : parts_) total += part.polygons.size() + part.fans.size();
+        std::vector<Triangle>& triangles = result_.mesh.triangles;
+        triangles.reserve(total);
+        const auto shift = static_cast<std::uint32_t>(result_.edge_vertices);
+        for (Part& part : parts_) {
+            for (const Triangle& t : part.polygons)
+                triangles.push_back({t[0] + shift, t[1] + shift, t[2] + shift});
+            triangles.insert(triangles.end(), part.fans.begin(), part.fans.end());
             part = {};
         }
     }
 
-    void cut_block(std::uint32_t i, std::vector<Triangle>& out) {
+    void add_fans(std::uint32_t i, std::vector<Triangle>& out) {
+        const DualBlock& block = *blocks_[i];
+        const bool has_fans = std::any_of(block.kept_edges.bits.begin(), block.kept_edges.bits.end(),
+                                          [](std::uint64_t word) { return word != 0; });
+        if (!has_fans) return;
         const Surroundings around = surroundings(i);
         EdgeStar star(around);
-        for_edges(i, star, [&](std::uint32_t number, std::uint32_t rank) {
-            const std::uint8_t state = blocks_[i]->edge_states[rank];
-            if (state & State::dead) return;
-            if (state & State::kept) {
-                add_fan(i, around, star, number, state, out);
-            } else {
-                add_polygon(star, state, out);
-            }
+        for_edges(block.kept_edges, star, [&](std::uint32_t number, std::uint32_t) {
+            add_fan(i, around, star, number, block.edge_states[block.edges.rank(number)], out);
         });
     }
 
@@ -295,11 +305,12 @@ class Joiner {
         }
     }
 
-    void add_polygon(const EdgeStar& star, std::uint8_t state, std::vector<Triangle>& out) const {
+    /// Numbers are those of leaves here; the vertices on edges, which come before, are not yet counted.
+    static void add_polygon(const EdgeStar& star, std::uint8_t state, std::vector<Triangle>& out) {
         std::array<std::uint32_t, 4> c{};
         std::size_t count = 0;
         for (std::size_t q = 0; q < 4; ++q) {
-            if (!star.is_one_leaf(q)) c[count++] = leaf_vertex(star, q);
+            if (!star.is_one_leaf(q)) c[count++] = star.vertex(q);
         }
         if (count == 3) {
             add(star, c[0], c[1], c[2], out);
@@ -324,10 +335,16 @@ class Joiner {
         }
     }
 
+    /// The triangles of the blocks of a task.
+    struct Part {
+        std::vector<Triangle> polygons, fans;
+    };
+
     const Grid& grid_;
     DualOptions options_;
     const Job& job_;
     std::vector<std::unique_ptr<DualBlock>> blocks_;
+    std::vector<Part> parts_;
     BlockIndex index_;
     std::vector<std::uint32_t> first_leaf_, first_edge_;
     std::uint32_t leaves_ = 0;

@@ -104,7 +104,7 @@ bool DualVertices::make(DualBlock& block, const NextBlocks& next) {
     block.vertices.clear();
     for (std::size_t i = 0; i < block.cells.size(); ++i) {
         block.cells[i].vertex = static_cast<std::uint32_t>(block.vertices.size());
-        const std::size_t sheets = cell_pattern(block.cells[i].signs).sheets;
+        const std::size_t sheets = patterns_[block.cells[i].signs].sheets;
         for (std::size_t sheet = 0; sheet < sheets; ++sheet) make_sheet(block, i, sheet);
     }
     if (options_.tolerance > 0) {
@@ -122,7 +122,7 @@ bool DualVertices::collect(const DualBlock& block, const NextBlocks& next) {
     for (const DualCell& cell : block.cells) {
         first_of_.push_back(static_cast<std::uint32_t>(crossings_.size()));
         const Lattice corner = local_of(cell.number);
-        const CellPattern& pattern = cell_pattern(cell.signs);
+        const CellPattern& pattern = patterns_[cell.signs];
         for (std::uint8_t e = 0; e < 12; ++e) {
             if (pattern.sheet_of[e] == no_sheet) continue;
             const auto& low = corner_offsets[edge_corners[e][0]];
@@ -152,7 +152,7 @@ bool DualVertices::collect(const DualBlock& block, const NextBlocks& next) {
 
 void DualVertices::make_sheet(DualBlock& block, std::size_t rank, std::size_t sheet) {
     DualCell& cell = block.cells[rank];
-    const CellPattern& pattern = cell_pattern(cell.signs);
+    const CellPattern& pattern = patterns_[cell.signs];
     const Lattice corner = local_of(cell.number);
     std::array<std::uint32_t, 12> all{};
     std::size_t count = 0;
@@ -373,7 +373,7 @@ void DualVertices::number_vertices(DualBlock& block) {
             leaf = i;
         }
         cell.vertex = static_cast<std::uint32_t>(vertices.size());
-        const std::size_t sheets = cell.level > 0 ? 1 : cell_pattern(cell.signs).sheets;
+        const std::size_t sheets = cell.level > 0 ? 1 : patterns_[cell.signs].sheets;
         if (cell.level > 0) {
             std::uint32_t& known = vertex_of[cell.level][leaf];
             if (known != ~0u) {
