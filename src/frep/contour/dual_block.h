@@ -102,6 +102,9 @@ struct DualBlock {
     std::vector<Wish> wishes;
     std::vector<std::uint8_t> edge_states;  ///< by rank of the edge; see dual_mesh.cpp
     RankedSet<24> kept_edges;               ///< edges whose crossing is a vertex of the mesh
+
+    /// As new, for the block with this code; keeps its memory.
+    void reset(std::uint64_t new_code);
 };
 
 struct DualOptions {
@@ -153,6 +156,7 @@ class DualSampler {
     std::array<double, size> values_{};
     std::array<std::uint8_t, size> inside_{};
     std::vector<double> x_, y_, z_, out_, gx_, gy_, gz_, columns_;
+    DualBlock work_;
     EdgeRoots finder_;
     std::vector<CrossedEdge> crossed_;       ///< the edges to search
     std::vector<std::uint32_t> crossed_at_;  ///< their rank in the block

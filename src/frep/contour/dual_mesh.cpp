@@ -139,12 +139,15 @@ class Joiner {
     }
 
     void decide_edges(std::uint32_t begin, std::uint32_t end) {
+        std::vector<Triangle>& out = parts_[begin / blocks_a_task].polygons;
+        std::size_t crossings = 0;
+        for (std::uint32_t i = begin; i < end; ++i) crossings += blocks_[i]->roots.size();
+        out.reserve(2 * crossings);
         for (std::uint32_t i = begin; i < end; ++i) {
             DualBlock& block = *blocks_[i];
             const Surroundings around = surroundings(i);
             EdgeStar star(around);
             block.edge_states.assign(block.roots.size(), 0);
-            std::vector<Triangle>& out = parts_[begin / blocks_a_task].polygons;
             for_edges(block.edges, star, [&](std::uint32_t number, std::uint32_t rank) {
                 const std::uint8_t state = star.state();
                 block.edge_states[rank] = state;
@@ -165,7 +168,7 @@ class Joiner {
             for (const std::uint64_t word : block->kept_edges.bits) total += bit_count(word);
             if (total + leaves_ >= vertex_limit) return false;
         }
-        result_.edge_vertices = static_cast<std::size_t>(total);
+        edges_ = static_cast<std::size_t>(total);
         return true;
     }
 
@@ -188,11 +191,11 @@ class Joiner {
     }
 
     void copy_vertices() {
-        const std::size_t wanted = options_.attributes, edges = result_.edge_vertices;
+        const std::size_t wanted = options_.attributes, count = edges_ + leaves_;
         Mesh& mesh = result_.mesh;
-        mesh.vertices.resize(edges + leaves_);
-        mesh.normals.resize(edges + leaves_);
-        result_.attributes.assign(wanted, std::vector<double>(edges + leaves_));
+        mesh.vertices.resize(count);
+        mesh.normals.resize(count);
+        result_.attributes.assign(wanted, std::vector<double>(count));
         for_blocks([&](std::uint32_t begin, std::uint32_t end) {
             for (std::uint32_t i = begin; i < end; ++i) {
                 copy_edges(i);
@@ -205,7 +208,7 @@ class Joiner {
         const DualBlock& block = *blocks_[i];
         Lattice lo = morton_decode(block.code);
         for (std::uint32_t& l : lo) l *= block_side;
-        std::size_t to = first_edge_[i];
+        std::size_t to = leaves_ + first_edge_[i];
         for (std::uint32_t w = 0; w < block.kept_edges.bits.size(); ++w) {
             for (std::uint64_t left = block.kept_edges.bits[w]; left != 0; left &= left - 1, ++to) {
                 const std::uint32_t number = w * 64 + static_cast<std::uint32_t>(std::countr_zero(left));
@@ -222,7 +225,7 @@ class Joiner {
         const DualBlock& block = *blocks_[i];
         Lattice lo = morton_decode(block.code);
         for (std::uint32_t& l : lo) l *= block_side;
-        std::size_t to = result_.edge_vertices + first_leaf_[i];
+        std::size_t to = first_leaf_[i];
         for (std::size_t v = 0; v < block.vertices.size(); ++v, ++to) {
             const Vec3& p = block.vertices[v].position;
             result_.mesh.vertices[to] = {coordinate(0, lo[0] + p.x), coordinate(1, lo[1] + p.y),
@@ -243,10 +246,8 @@ class Joiner {
         for (const Part& part : parts_) total += part.polygons.size() + part.fans.size();
         std::vector<Triangle>& triangles = result_.mesh.triangles;
         triangles.reserve(total);
-        const auto shift = static_cast<std::uint32_t>(result_.edge_vertices);
         for (Part& part : parts_) {
-            for (const Triangle& t : part.polygons)
-                triangles.push_back({t[0] + shift, t[1] + shift, t[2] + shift});
+            triangles.insert(triangles.end(), part.polygons.begin(), part.polygons.end());
             triangles.insert(triangles.end(), part.fans.begin(), part.fans.end());
             part = {};
         }
@@ -264,12 +265,8 @@ class Joiner {
         });
     }
 
-    std::uint32_t leaf_vertex(const EdgeStar& star, std::size_t quadrant) const {
-        return static_cast<std::uint32_t>(result_.edge_vertices) + star.vertex(quadrant);
-    }
-
     std::uint32_t edge_vertex(std::uint32_t block, std::uint32_t number) const {
-        return first_edge_[block] + blocks_[block]->kept_edges.rank(number);
+        return leaves_ + first_edge_[block] + blocks_[block]->kept_edges.rank(number);
     }
 
     /// a b c, counter-clockwise seen from the upper end of the edge, turned over if that is the inside.
@@ -293,19 +290,18 @@ class Joiner {
             const bool has_next = star.vertex(next) != EdgeStar::no_vertex;
             if (star.is_one_leaf(q) || !(has_q || has_next)) continue;
             if (state >> q & 1) {
-                add(star, here, leaf_vertex(star, q), leaf_vertex(star, next), out);
+                add(star, here, star.vertex(q), star.vertex(next), out);
                 continue;
             }
             const EdgeName end = star.partner(q);
             const std::uint32_t block = around.ranks[end.block];
             if (block < i || (block == i && end.number < number)) continue;
             const std::uint32_t there = edge_vertex(block, end.number);
-            if (has_q) add(star, here, leaf_vertex(star, q), there, out);
-            if (has_next) add(star, here, there, leaf_vertex(star, next), out);
+            if (has_q) add(star, here, star.vertex(q), there, out);
+            if (has_next) add(star, here, there, star.vertex(next), out);
         }
     }
 
-    /// Numbers are those of leaves here; the vertices on edges, which come before, are not yet counted.
     static void add_polygon(const EdgeStar& star, std::uint8_t state, std::vector<Triangle>& out) {
         std::array<std::uint32_t, 4> c{};
         std::size_t count = 0;
@@ -348,6 +344,7 @@ class Joiner {
     BlockIndex index_;
     std::vector<std::uint32_t> first_leaf_, first_edge_;
     std::uint32_t leaves_ = 0;
+    std::size_t edges_ = 0;  ///< vertices on edges
     DualMesh result_;
     std::atomic<bool> contradiction_{false};
 };
