@@ -128,7 +128,6 @@ Result<ContourResult> contour_adaptive(const SampledField& field, const ContourO
 
     ContourResult result;
     result.mesh = std::move(mesh->mesh);
-    result.edge_vertices = mesh->edge_vertices;
     result.attributes = std::move(mesh->attributes);
     result.grid = *grid;
     result.sampled_blocks = octree->blocks.size();

@@ -35,6 +35,17 @@ void for_each(const Lattice& begin, const Lattice& end, Visit visit) {
 
 }  // namespace
 
+void DualBlock::reset(std::uint64_t new_code) {
+    code = new_code;
+    edges = {};
+    cell_set = {};
+    mergeable = {};
+    roots.clear();
+    normals.clear();
+    attributes.clear();
+    cells.clear();
+}
+
 bool DualSampler::is_layer(const Lattice& l) const {
     for (std::size_t a = 0; a < 3; ++a) {
         const std::uint32_t e = lo_[a] + l[a];
@@ -62,17 +73,16 @@ void DualSampler::place(std::uint64_t code) {
 std::unique_ptr<DualBlock> DualSampler::sample(std::uint64_t code, SampledField& part, SampledField& field) {
     place(code);
     if (!take_values(code, part)) return nullptr;
-    auto block = std::make_unique<DualBlock>();
-    block->code = code;
-    collect_edges(*block);
-    collect_cells(*block);
-    if (block->roots.empty() && block->cells.empty()) return nullptr;
+    work_.reset(code);
+    collect_edges(work_);
+    collect_cells(work_);
+    if (work_.roots.empty() && work_.cells.empty()) return nullptr;
     finder_.find(part, crossed_, found_);
-    for (std::size_t i = 0; i < found_.size(); ++i) block->roots[crossed_at_[i]] = found_[i].inside;
-    take_normals(*block, part);
-    take_attributes(*block, field);
-    if (options_.tolerance > 0) find_mergeable(*block);
-    return block;
+    for (std::size_t i = 0; i < found_.size(); ++i) work_.roots[crossed_at_[i]] = found_[i].inside;
+    take_normals(work_, part);
+    take_attributes(work_, field);
+    if (options_.tolerance > 0) find_mergeable(work_);
+    return std::make_unique<DualBlock>(work_);  // a copy: exactly as large as needed
 }
 
 /// The values at the corners of the block's cells. False when there is no surface among them.

@@ -17,6 +17,14 @@
 
 namespace frep::contouring {
 
+/// The number of bits that are set; as fast on processors without an instruction for it.
+constexpr std::uint32_t bit_count(std::uint64_t v) {
+    v -= v >> 1 & 0x5555555555555555u;
+    v = (v & 0x3333333333333333u) + (v >> 2 & 0x3333333333333333u);
+    v = (v + (v >> 4)) & 0x0f0f0f0f0f0f0f0fu;
+    return static_cast<std::uint32_t>(v * 0x0101010101010101u >> 56);
+}
+
 /// A set of numbers below 64 * Words, with the rank of each member.
 template <std::size_t Words>
 struct RankedSet {
@@ -30,13 +38,12 @@ struct RankedSet {
         std::uint16_t sum = 0;
         for (std::size_t w = 0; w < Words; ++w) {
             before[w] = sum;
-            sum = static_cast<std::uint16_t>(sum + std::popcount(bits[w]));
+            sum = static_cast<std::uint16_t>(sum + bit_count(bits[w]));
         }
     }
     /// How many members are smaller.
     std::uint32_t rank(std::uint32_t i) const {
-        return before[i >> 6] +
-               static_cast<std::uint32_t>(std::popcount(bits[i >> 6] & ((std::uint64_t{1} << (i & 63)) - 1)));
+        return before[i >> 6] + bit_count(bits[i >> 6] & ((std::uint64_t{1} << (i & 63)) - 1));
     }
 };
 
@@ -95,6 +102,9 @@ struct DualBlock {
     std::vector<Wish> wishes;
     std::vector<std::uint8_t> edge_states;  ///< by rank of the edge; see dual_mesh.cpp
     RankedSet<24> kept_edges;               ///< edges whose crossing is a vertex of the mesh
+
+    /// As new, for the block with this code; keeps its memory.
+    void reset(std::uint64_t new_code);
 };
 
 struct DualOptions {
@@ -146,6 +156,7 @@ class DualSampler {
     std::array<double, size> values_{};
     std::array<std::uint8_t, size> inside_{};
     std::vector<double> x_, y_, z_, out_, gx_, gy_, gz_, columns_;
+    DualBlock work_;
     EdgeRoots finder_;
     std::vector<CrossedEdge> crossed_;       ///< the edges to search
     std::vector<std::uint32_t> crossed_at_;  ///< their rank in the block

@@ -129,13 +129,13 @@ CellPattern make_pattern(unsigned inside) {
 
 }  // namespace
 
-const CellPattern& cell_pattern(unsigned inside) {
+const std::array<CellPattern, 256>& cell_patterns() {
     static const std::array<CellPattern, 256> table = [] {
         std::array<CellPattern, 256> all;
         for (unsigned i = 0; i < 256; ++i) all[i] = make_pattern(i);
         return all;
     }();
-    return table[inside];
+    return table;
 }
 
 std::uint8_t cell_edge_at(std::size_t axis, unsigned lower_bits) {

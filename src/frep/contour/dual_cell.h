@@ -34,8 +34,10 @@ struct CellPattern {
     bool is_simple() const { return sheets == 1 && ambiguous_faces == 0; }
 };
 
-/// The pattern of the signs `inside`: bit i is set when corner i is inside.
-const CellPattern& cell_pattern(unsigned inside);
+/// The patterns of all signs: bit i of the index is set when corner i is inside.
+const std::array<CellPattern, 256>& cell_patterns();
+/// One of them. Loops do better to keep the reference to all.
+inline const CellPattern& cell_pattern(unsigned inside) { return cell_patterns()[inside]; }
 
 /// The edge along `axis` whose lower corner has the offsets of the bits (x 1, y 2, z 4) from corner 0.
 std::uint8_t cell_edge_at(std::size_t axis, unsigned lower_bits);

@@ -73,6 +73,7 @@ bool EdgeStar::look(std::uint32_t number) {
     const Lattice lower = local_of(number / 3);
     for (std::size_t a = 0; a < 3; ++a) lower_[a] = static_cast<std::int32_t>(lower[a]);
     axis_ = number % 3;
+    cell_ = number / 3;
     u_ = (axis_ + 1) % 3;
     v_ = (axis_ + 2) % 3;
     const DualBlock& block = *around_.blocks[13];
@@ -88,37 +89,47 @@ bool EdgeStar::look(std::uint32_t number) {
     return found;
 }
 
+/// Bits that tell by which sides of the box a cell is outside of it; 0: it is inside.
+std::uint32_t EdgeStar::outside_of_box(const Signed& corner) const {
+    std::uint32_t outside = 0;
+    for (std::size_t a = 0; a < 3; ++a) {
+        const auto whole = static_cast<std::int64_t>(around_.lo[a]) + corner[a];
+        const std::int64_t first = around_.cap ? 0 : 1, last = around_.cells[a] + (around_.cap ? 1 : 0);
+        if (whole < first) outside += 1u << (2 * a);
+        if (whole > last) outside += 2u << (2 * a);
+    }
+    return outside;
+}
+
 bool EdgeStar::find_side(std::size_t q) {
     Side& side = sides_[q];
     side = {};
     side.corner = lower_;
-    if (!positive_u[q]) --side.corner[u_];
-    if (!positive_v[q]) --side.corner[v_];
-    std::size_t which = 0;
-    Lattice local{};
-    std::uint32_t outside = 0;
-    constexpr std::array<std::size_t, 3> steps{1, 3, 9};
-    for (std::size_t a = 0; a < 3; ++a) {
-        const auto whole = static_cast<std::int64_t>(around_.lo[a]) + side.corner[a];
-        const std::int64_t first = around_.cap ? 0 : 1, last = around_.cells[a] + (around_.cap ? 1 : 0);
-        if (whole < first) outside += 1u << (2 * a);
-        if (whole > last) outside += 2u << (2 * a);
-        const std::int32_t block = side.corner[a] < 0 ? 0 : 1;
-        which += steps[a] * static_cast<std::size_t>(block);
-        side.block_corner[a] = (block - 1) * static_cast<std::int32_t>(block_side);
-        local[a] = static_cast<std::uint32_t>(side.corner[a] - side.block_corner[a]);
-    }
-    if (outside != 0) {
+    std::size_t which = 13;
+    std::uint32_t cell = cell_;
+    constexpr std::array<std::size_t, 3> block_steps{1, 3, 9};
+    constexpr std::array<std::uint32_t, 3> cell_steps{1, block_side, block_side * block_side};
+    const auto step_back = [&](std::size_t axis) {
+        --side.corner[axis];
+        cell -= cell_steps[axis];
+        if (side.corner[axis] >= 0) return;
+        which -= block_steps[axis];
+        cell += block_side * cell_steps[axis];
+        side.block_corner[axis] = -static_cast<std::int32_t>(block_side);
+    };
+    if (!positive_u[q]) step_back(u_);
+    if (!positive_v[q]) step_back(v_);
+    if (!around_.is_inner) {
+        const std::uint32_t outside = outside_of_box(side.corner);
         side.key = ~outside;  // vertices never get that far
-        return true;
+        if (outside != 0) return true;
     }
     side.block = around_.blocks[which];
-    const std::uint32_t cell = local_number(local);
     if (!side.block || !side.block->cell_set.has(cell)) return false;
     side.cell = &side.block->cells[side.block->cell_set.rank(cell)];
     const unsigned bits = (positive_u[q] ? 0u : 1u << u_) | (positive_v[q] ? 0u : 1u << v_);
     side.edge = cell_edge_at(axis_, bits);
-    const CellPattern& pattern = cell_pattern(side.cell->signs);
+    const CellPattern& pattern = patterns_[side.cell->signs];
     side.sheets = pattern.sheets;
     if (pattern.sheet_of[side.edge] == no_sheet) return false;
     const std::uint32_t sheet = side.cell->level > 0 ? 0 : pattern.sheet_of[side.edge];
@@ -148,7 +159,7 @@ EdgeStar::Face EdgeStar::face(std::size_t q) const {
 bool EdgeStar::is_ambiguous(const Face& face) const {
     const Side& side = *face.above;
     return side.cell->level == 0 && face.below->cell->level == 0 &&
-           (cell_pattern(side.cell->signs).ambiguous_faces >> (2 * face.normal) & 1) != 0;
+           (patterns_[side.cell->signs].ambiguous_faces >> (2 * face.normal) & 1) != 0;
 }
 
 /// Computed in the frame of the block of the cell below the face, so that both ends of the arc find the same.
@@ -249,7 +260,7 @@ EdgeName EdgeStar::partner(std::size_t q) const {
     std::size_t axis = 0;
     if (small.cell->level == 0) {
         const std::size_t number = 2 * f.normal + (takes_above ? 0 : 1);
-        const std::uint8_t edge = cell_pattern(small.cell->signs).partner[number][small.edge];
+        const std::uint8_t edge = patterns_[small.cell->signs].partner[number][small.edge];
         FREP_CHECK(edge != no_edge);
         const auto& low = corner_offsets[edge_corners[edge][0]];
         const auto& high = corner_offsets[edge_corners[edge][1]];

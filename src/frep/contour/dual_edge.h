@@ -7,6 +7,7 @@
 #include <span>
 
 #include "frep/contour/dual_block.h"
+#include "frep/contour/dual_cell.h"
 
 namespace frep::contouring {
 
@@ -18,6 +19,7 @@ struct Surroundings {
     Lattice lo{};     ///< first sample of the block in the middle, with layer
     Lattice cells{};  ///< of the grid
     bool cap = false;
+    bool is_inner = false;  ///< all cells at edges of the block lie in the box
     double margin = 0;
     double keep_distance = 0;  ///< crossings farther than that from the cut polygon stay vertices, in cells
 };
@@ -81,6 +83,7 @@ class EdgeStar {
     };
 
     bool find_side(std::size_t quadrant);
+    std::uint32_t outside_of_box(const Signed& corner) const;
     Face face(std::size_t quadrant) const;
     bool is_turned(std::size_t quadrant) const;
     bool is_ambiguous(const Face& face) const;
@@ -91,7 +94,9 @@ class EdgeStar {
     EdgeName crossing_on_sides(const Face& face, const Side& small) const;
 
     const Surroundings& around_;
+    const std::array<CellPattern, 256>& patterns_ = cell_patterns();
     Signed lower_{};
+    std::uint32_t cell_ = 0;  ///< number of the cell at lower_
     std::size_t axis_ = 0, u_ = 1, v_ = 2;
     double root_ = 0;
     bool lower_is_inside_ = false;

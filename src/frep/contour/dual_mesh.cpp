@@ -32,6 +32,7 @@ class Joiner {
         for_blocks([this](std::uint32_t begin, std::uint32_t end) { grant_wishes(begin, end); });
         if (job_.cancelled()) return cancelled();
         if (!number_leaves()) return too_many();
+        parts_.resize(tasks());
         for_blocks([this](std::uint32_t begin, std::uint32_t end) { decide_edges(begin, end); });
         if (job_.cancelled()) return cancelled();
         if (contradiction_) return contradiction();
@@ -113,18 +114,20 @@ class Joiner {
         for (std::uint32_t& lo : s.lo) lo *= block_side;
         s.cells = grid_.cells;
         s.cap = options_.cap;
+        s.is_inner = true;
+        for (std::size_t a = 0; a < 3; ++a)
+            s.is_inner = s.is_inner && s.lo[a] >= block_side && s.lo[a] + block_side <= grid_.cells[a];
         s.margin = options_.margin;
         s.keep_distance = options_.tolerance > 0 ? options_.tolerance : keep_distance;
         return s;
     }
 
-    /// Calls visit(star, number, rank) for every edge of block i.
+    /// Lets `star` look at every edge of a set and calls visit(number, rank in the set).
     template <class Visit>
-    void for_edges(std::uint32_t i, EdgeStar& star, Visit visit) {
-        const DualBlock& block = *blocks_[i];
+    void for_edges(const RankedSet<24>& edges, EdgeStar& star, Visit visit) {
         std::uint32_t rank = 0;
-        for (std::uint32_t w = 0; w < block.edges.bits.size(); ++w) {
-            for (std::uint64_t left = block.edges.bits[w]; left != 0; left &= left - 1) {
+        for (std::uint32_t w = 0; w < edges.bits.size(); ++w) {
+            for (std::uint64_t left = edges.bits[w]; left != 0; left &= left - 1) {
                 const std::uint32_t number = w * 64 + static_cast<std::uint32_t>(std::countr_zero(left));
                 if (!star.look(number)) {
                     contradiction_ = true;
@@ -136,15 +139,23 @@ class Joiner {
     }
 
     void decide_edges(std::uint32_t begin, std::uint32_t end) {
+        std::vector<Triangle>& out = parts_[begin / blocks_a_task].polygons;
+        std::size_t crossings = 0;
+        for (std::uint32_t i = begin; i < end; ++i) crossings += blocks_[i]->roots.size();
+        out.reserve(2 * crossings);
         for (std::uint32_t i = begin; i < end; ++i) {
             DualBlock& block = *blocks_[i];
             const Surroundings around = surroundings(i);
             EdgeStar star(around);
             block.edge_states.assign(block.roots.size(), 0);
-            for_edges(i, star, [&](std::uint32_t number, std::uint32_t rank) {
+            for_edges(block.edges, star, [&](std::uint32_t number, std::uint32_t rank) {
                 const std::uint8_t state = star.state();
                 block.edge_states[rank] = state;
-                if (state & State::kept) block.kept_edges.insert(number);
+                if (state & State::kept) {
+                    block.kept_edges.insert(number);
+                } else if (!(state & State::dead)) {
+                    add_polygon(star, state, out);
+                }
             });
             block.kept_edges.count();
         }
@@ -154,11 +165,10 @@ class Joiner {
         std::uint64_t total = 0;
         for (const auto& block : blocks_) {
             first_edge_.push_back(static_cast<std::uint32_t>(total));
-            for (const std::uint64_t word : block->kept_edges.bits)
-                total += static_cast<std::uint64_t>(std::popcount(word));
+            for (const std::uint64_t word : block->kept_edges.bits) total += bit_count(word);
             if (total + leaves_ >= vertex_limit) return false;
         }
-        result_.edge_vertices = static_cast<std::size_t>(total);
+        edges_ = static_cast<std::size_t>(total);
         return true;
     }
 
@@ -181,11 +191,11 @@ class Joiner {
     }
 
     void copy_vertices() {
-        const std::size_t wanted = options_.attributes, edges = result_.edge_vertices;
+        const std::size_t wanted = options_.attributes, count = edges_ + leaves_;
         Mesh& mesh = result_.mesh;
-        mesh.vertices.resize(edges + leaves_);
-        mesh.normals.resize(edges + leaves_);
-        result_.attributes.assign(wanted, std::vector<double>(edges + leaves_));
+        mesh.vertices.resize(count);
+        mesh.normals.resize(count);
+        result_.attributes.assign(wanted, std::vector<double>(count));
         for_blocks([&](std::uint32_t begin, std::uint32_t end) {
             for (std::uint32_t i = begin; i < end; ++i) {
                 copy_edges(i);
@@ -198,7 +208,7 @@ class Joiner {
         const DualBlock& block = *blocks_[i];
         Lattice lo = morton_decode(block.code);
         for (std::uint32_t& l : lo) l *= block_side;
-        std::size_t to = first_edge_[i];
+        std::size_t to = leaves_ + first_edge_[i];
         for (std::uint32_t w = 0; w < block.kept_edges.bits.size(); ++w) {
             for (std::uint64_t left = block.kept_edges.bits[w]; left != 0; left &= left - 1, ++to) {
                 const std::uint32_t number = w * 64 + static_cast<std::uint32_t>(std::countr_zero(left));
@@ -215,7 +225,7 @@ class Joiner {
         const DualBlock& block = *blocks_[i];
         Lattice lo = morton_decode(block.code);
         for (std::uint32_t& l : lo) l *= block_side;
-        std::size_t to = result_.edge_vertices + first_leaf_[i];
+        std::size_t to = first_leaf_[i];
         for (std::size_t v = 0; v < block.vertices.size(); ++v, ++to) {
             const Vec3& p = block.vertices[v].position;
             result_.mesh.vertices[to] = {coordinate(0, lo[0] + p.x), coordinate(1, lo[1] + p.y),
@@ -226,40 +236,37 @@ class Joiner {
         }
     }
 
+    /// The fans, and with the polygons all triangles: those of 32 blocks, polygons first, then the next.
     void make_triangles() {
-        std::vector<std::vector<Triangle>> parts(tasks());
         for_blocks([&](std::uint32_t begin, std::uint32_t end) {
-            for (std::uint32_t i = begin; i < end; ++i) cut_block(i, parts[begin / blocks_a_task]);
+            std::vector<Triangle>& out = parts_[begin / blocks_a_task].fans;
+            for (std::uint32_t i = begin; i < end; ++i) add_fans(i, out);
         });
         std::size_t total = 0;
-        for (const auto& part : parts) total += part.size();
-        result_.mesh.triangles.reserve(total);
-        for (std::vector<Triangle>& part : parts) {
-            result_.mesh.triangles.insert(result_.mesh.triangles.end(), part.begin(), part.end());
+        for (const Part& part : parts_) total += part.polygons.size() + part.fans.size();
+        std::vector<Triangle>& triangles = result_.mesh.triangles;
+        triangles.reserve(total);
+        for (Part& part : parts_) {
+            triangles.insert(triangles.end(), part.polygons.begin(), part.polygons.end());
+            triangles.insert(triangles.end(), part.fans.begin(), part.fans.end());
             part = {};
         }
     }
 
-    void cut_block(std::uint32_t i, std::vector<Triangle>& out) {
+    void add_fans(std::uint32_t i, std::vector<Triangle>& out) {
+        const DualBlock& block = *blocks_[i];
+        const bool has_fans = std::any_of(block.kept_edges.bits.begin(), block.kept_edges.bits.end(),
+                                          [](std::uint64_t word) { return word != 0; });
+        if (!has_fans) return;
         const Surroundings around = surroundings(i);
         EdgeStar star(around);
-        for_edges(i, star, [&](std::uint32_t number, std::uint32_t rank) {
-            const std::uint8_t state = blocks_[i]->edge_states[rank];
-            if (state & State::dead) return;
-            if (state & State::kept) {
-                add_fan(i, around, star, number, state, out);
-            } else {
-                add_polygon(star, state, out);
-            }
+        for_edges(block.kept_edges, star, [&](std::uint32_t number, std::uint32_t) {
+            add_fan(i, around, star, number, block.edge_states[block.edges.rank(number)], out);
         });
     }
 
-    std::uint32_t leaf_vertex(const EdgeStar& star, std::size_t quadrant) const {
-        return static_cast<std::uint32_t>(result_.edge_vertices) + star.vertex(quadrant);
-    }
-
     std::uint32_t edge_vertex(std::uint32_t block, std::uint32_t number) const {
-        return first_edge_[block] + blocks_[block]->kept_edges.rank(number);
+        return leaves_ + first_edge_[block] + blocks_[block]->kept_edges.rank(number);
     }
 
     /// a b c, counter-clockwise seen from the upper end of the edge, turned over if that is the inside.
@@ -283,23 +290,23 @@ class Joiner {
             const bool has_next = star.vertex(next) != EdgeStar::no_vertex;
             if (star.is_one_leaf(q) || !(has_q || has_next)) continue;
             if (state >> q & 1) {
-                add(star, here, leaf_vertex(star, q), leaf_vertex(star, next), out);
+                add(star, here, star.vertex(q), star.vertex(next), out);
                 continue;
             }
             const EdgeName end = star.partner(q);
             const std::uint32_t block = around.ranks[end.block];
             if (block < i || (block == i && end.number < number)) continue;
             const std::uint32_t there = edge_vertex(block, end.number);
-            if (has_q) add(star, here, leaf_vertex(star, q), there, out);
-            if (has_next) add(star, here, there, leaf_vertex(star, next), out);
+            if (has_q) add(star, here, star.vertex(q), there, out);
+            if (has_next) add(star, here, there, star.vertex(next), out);
         }
     }
 
-    void add_polygon(const EdgeStar& star, std::uint8_t state, std::vector<Triangle>& out) const {
+    static void add_polygon(const EdgeStar& star, std::uint8_t state, std::vector<Triangle>& out) {
         std::array<std::uint32_t, 4> c{};
         std::size_t count = 0;
         for (std::size_t q = 0; q < 4; ++q) {
-            if (!star.is_one_leaf(q)) c[count++] = leaf_vertex(star, q);
+            if (!star.is_one_leaf(q)) c[count++] = star.vertex(q);
         }
         if (count == 3) {
             add(star, c[0], c[1], c[2], out);
@@ -324,13 +331,20 @@ class Joiner {
         }
     }
 
+    /// The triangles of the blocks of a task.
+    struct Part {
+        std::vector<Triangle> polygons, fans;
+    };
+
     const Grid& grid_;
     DualOptions options_;
     const Job& job_;
     std::vector<std::unique_ptr<DualBlock>> blocks_;
+    std::vector<Part> parts_;
     BlockIndex index_;
     std::vector<std::uint32_t> first_leaf_, first_edge_;
     std::uint32_t leaves_ = 0;
+    std::size_t edges_ = 0;  ///< vertices on edges
     DualMesh result_;
     std::atomic<bool> contradiction_{false};
 };

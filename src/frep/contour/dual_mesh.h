@@ -46,12 +46,11 @@ class BlockIndex {
 
 struct DualMesh {
     Mesh mesh;
-    std::size_t edge_vertices = 0;  ///< vertices on edges of the lattice; those of leaves follow them
     std::vector<std::vector<double>> attributes;  ///< one column an attribute, a number a vertex
 };
 
 /// Computes the vertices of all blocks (dual_vertices.h) and joins them. `blocks` stand in the order of their
-/// codes and are used up. The vertices on edges come first, then those of leaves, both in the order of the
+/// codes and are used up. The vertices of leaves come first, then those on edges, both in the order of the
 /// blocks. Errors: over_limit for more than 2^32 - 2 vertices, cancelled, invalid_argument when the intervals
 /// and the values of the field contradict each other.
 Result<DualMesh> join_blocks(const Grid& grid, const DualOptions& options,

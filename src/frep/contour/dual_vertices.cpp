@@ -31,6 +31,17 @@ Vec3 unit(const Vec3& v) {
 
 double component(const Vec3& v, std::size_t axis) { return axis == 0 ? v.x : axis == 1 ? v.y : v.z; }
 
+/// The axis of each edge of a cell.
+constexpr std::array<std::uint8_t, 12> edge_axes = [] {
+    std::array<std::uint8_t, 12> axes{};
+    for (std::size_t e = 0; e < 12; ++e) {
+        const auto& low = corner_offsets[edge_corners[e][0]];
+        const auto& high = corner_offsets[edge_corners[e][1]];
+        axes[e] = low[0] != high[0] ? 0 : low[1] != high[1] ? 1 : 2;
+    }
+    return axes;
+}();
+
 /// A corner of the unit cell.
 Vec3 corner_place(std::uint8_t corner) {
     const auto& o = corner_offsets[corner];
@@ -102,9 +113,10 @@ bool DualVertices::make(DualBlock& block, const NextBlocks& next) {
         }
     }
     block.vertices.clear();
+    block.vertices.reserve(block.cells.size());
     for (std::size_t i = 0; i < block.cells.size(); ++i) {
         block.cells[i].vertex = static_cast<std::uint32_t>(block.vertices.size());
-        const std::size_t sheets = cell_pattern(block.cells[i].signs).sheets;
+        const std::size_t sheets = patterns_[block.cells[i].signs].sheets;
         for (std::size_t sheet = 0; sheet < sheets; ++sheet) make_sheet(block, i, sheet);
     }
     if (options_.tolerance > 0) {
@@ -116,43 +128,42 @@ bool DualVertices::make(DualBlock& block, const NextBlocks& next) {
 
 /// Finds the crossings of all cells.
 bool DualVertices::collect(const DualBlock& block, const NextBlocks& next) {
-    crossings_.clear();
-    first_of_.clear();
-    edge_of_.clear();
-    for (const DualCell& cell : block.cells) {
-        first_of_.push_back(static_cast<std::uint32_t>(crossings_.size()));
-        const Lattice corner = local_of(cell.number);
-        const CellPattern& pattern = cell_pattern(cell.signs);
+    crossings_.resize(12 * block.cells.size());
+    edge_of_.resize(12 * block.cells.size());
+    first_of_.resize(block.cells.size() + 1);
+    std::uint32_t count = 0;
+    for (std::size_t i = 0; i < block.cells.size(); ++i) {
+        first_of_[i] = count;
+        const Lattice corner = local_of(block.cells[i].number);
+        const CellPattern& pattern = patterns_[block.cells[i].signs];
         for (std::uint8_t e = 0; e < 12; ++e) {
             if (pattern.sheet_of[e] == no_sheet) continue;
             const auto& low = corner_offsets[edge_corners[e][0]];
-            const auto& high = corner_offsets[edge_corners[e][1]];
-            const std::size_t axis = low[0] != high[0] ? 0 : low[1] != high[1] ? 1 : 2;
-            Lattice at{corner[0] + low[0], corner[1] + low[1], corner[2] + low[2]};
-            Vec3 point = position_of(at);
-            std::size_t which = 0;
-            for (std::size_t a = 0; a < 3; ++a) {
-                which |= static_cast<std::size_t>(at[a] / block_side) << a;
-                at[a] %= block_side;
-            }
+            const std::size_t axis = edge_axes[e];
+            const Lattice at{corner[0] + low[0], corner[1] + low[1], corner[2] + low[2]};
+            const std::size_t which = at[0] / block_side | at[1] / block_side << 1 | at[2] / block_side << 2;
             const DualBlock* owner = next[which];
-            const std::uint32_t number = edge_number(at, axis);
+            const std::uint32_t number =
+                edge_number({at[0] % block_side, at[1] % block_side, at[2] % block_side}, axis);
             if (!owner || !owner->edges.has(number)) return false;
             const std::uint32_t rank = owner->edges.rank(number);
-            (axis == 0 ? point.x : axis == 1 ? point.y : point.z) += owner->roots[rank];
-            const double* attributes =
-                options_.attributes > 0 ? &owner->attributes[rank * options_.attributes] : nullptr;
-            crossings_.push_back({point, owner->normals[rank], attributes});
-            edge_of_.push_back(e);
+            Crossing& crossing = crossings_[count];
+            crossing.point = position_of(at);
+            (axis == 0   ? crossing.point.x
+             : axis == 1 ? crossing.point.y
+                         : crossing.point.z) += owner->roots[rank];
+            crossing.normal = owner->normals[rank];
+            if (options_.attributes > 0) crossing.attributes = &owner->attributes[rank * options_.attributes];
+            edge_of_[count++] = e;
         }
     }
-    first_of_.push_back(static_cast<std::uint32_t>(crossings_.size()));
+    first_of_[block.cells.size()] = count;
     return true;
 }
 
 void DualVertices::make_sheet(DualBlock& block, std::size_t rank, std::size_t sheet) {
     DualCell& cell = block.cells[rank];
-    const CellPattern& pattern = cell_pattern(cell.signs);
+    const CellPattern& pattern = patterns_[cell.signs];
     const Lattice corner = local_of(cell.number);
     std::array<std::uint32_t, 12> all{};
     std::size_t count = 0;
@@ -373,7 +384,7 @@ void DualVertices::number_vertices(DualBlock& block) {
             leaf = i;
         }
         cell.vertex = static_cast<std::uint32_t>(vertices.size());
-        const std::size_t sheets = cell.level > 0 ? 1 : cell_pattern(cell.signs).sheets;
+        const std::size_t sheets = cell.level > 0 ? 1 : patterns_[cell.signs].sheets;
         if (cell.level > 0) {
             std::uint32_t& known = vertex_of[cell.level][leaf];
             if (known != ~0u) {

@@ -14,6 +14,7 @@
 #include <span>
 
 #include "frep/contour/dual_block.h"
+#include "frep/contour/dual_cell.h"
 #include "frep/contour/qef.h"
 
 namespace frep::contouring {
@@ -59,6 +60,7 @@ class DualVertices {
     void note_wish(DualBlock& block, std::size_t rank, const QuadraticError::Free& free) const;
     void append_attributes(DualBlock& block, std::span<const std::uint32_t> members) const;
 
+    const std::array<CellPattern, 256>& patterns_ = cell_patterns();
     DualOptions options_;
     std::vector<Crossing> crossings_;      ///< cell after cell
     std::vector<std::uint32_t> first_of_;  ///< by rank of the cell, and an end

@@ -42,14 +42,6 @@ Vec3 point_on(const CrossedEdge& edge, double t) {
     return p;
 }
 
-void EdgeRoots::place(const CrossedEdge& edge, double t) {
-    const Vec3 p = point_on(edge, t);
-    t_.push_back(t);
-    x_.push_back(p.x);
-    y_.push_back(p.y);
-    z_.push_back(p.z);
-}
-
 void EdgeRoots::find(SampledField& field, const std::vector<CrossedEdge>& edges,
                      std::vector<EdgeRoot>& roots) {
     brackets_.clear();
@@ -59,23 +51,34 @@ void EdgeRoots::find(SampledField& field, const std::vector<CrossedEdge>& edges,
         brackets_.push_back({0, 1, low, high, low, high});
         active_.push_back(static_cast<std::uint32_t>(i));
     }
+    for (std::vector<double>* column : {&x_, &y_, &z_, &t_, &values_}) column->resize(edges.size());
     for (int step = 0; step < most_steps && !active_.empty(); ++step) {
-        for (std::vector<double>* column : {&x_, &y_, &z_, &t_}) column->clear();
-        for (const std::uint32_t i : active_) {
-            const Bracket& b = brackets_[i];
-            place(edges[i], next_try(b.low, b.high, b.low_weight, b.high_weight, step));
+        const std::size_t count = active_.size();
+        for (std::size_t k = 0; k < count; ++k) {
+            const Bracket& b = brackets_[active_[k]];
+            t_[k] = next_try(b.low, b.high, b.low_weight, b.high_weight, step);
+            const Vec3 p = point_on(edges[active_[k]], t_[k]);
+            x_[k] = p.x;
+            y_[k] = p.y;
+            z_[k] = p.z;
         }
-        values_.resize(t_.size());
-        field.values({x_, y_, z_}, values_);
+        const auto first = [count](std::vector<double>& column) {
+            return std::span<double>(column.data(), count);
+        };
+        field.values({first(x_), first(y_), first(z_)}, first(values_));
         std::size_t left = 0;
-        for (std::size_t k = 0; k < t_.size(); ++k) {
+        for (std::size_t k = 0; k < count; ++k) {
             const std::uint32_t i = active_[k];
             Bracket& b = brackets_[i];
-            const bool is_low = (values_[k] >= 0) == (b.low_value >= 0);
-            shrink(is_low ? b.low_value : b.high_value, values_[k], is_low ? b.high_weight : b.low_weight);
-            (is_low ? b.low : b.high) = t_[k];
-            (is_low ? b.low_value : b.high_value) = values_[k];
-            (is_low ? b.low_weight : b.high_weight) = values_[k];
+            if ((values_[k] >= 0) == (b.low_value >= 0)) {
+                shrink(b.low_value, values_[k], b.high_weight);
+                b.low = t_[k];
+                b.low_value = b.low_weight = values_[k];
+            } else {
+                shrink(b.high_value, values_[k], b.low_weight);
+                b.high = t_[k];
+                b.high_value = b.high_weight = values_[k];
+            }
             if (b.high - b.low > root_width) active_[left++] = i;
         }
         active_.resize(left);

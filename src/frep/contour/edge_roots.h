@@ -42,7 +42,6 @@ class EdgeRoots {
         double low, high, low_value, high_value;
         double low_weight, high_weight;  ///< the values, as the secant takes them
     };
-    void place(const CrossedEdge& edge, double t);
 
     std::vector<Bracket> brackets_;
     std::vector<std::uint32_t> active_;

@@ -44,11 +44,16 @@ TEST_CASE("mesh: the same bytes for every number of threads in every format") {
     write_bytes(folder.path() / "flat.hf", flat_text);
     struct Row {
         std::string model, file, more;
+        bool ignores_pruning = true;
     };
     std::vector<Row> rows;
     for (const char* extension : {"stl", "ply", "obj", "off", "glb", "wrl", "x3d", "3mf", "pov"})
-        rows.push_back({"solid.hf", std::string("out.") + extension, " --grid 30 --bounds -1.6,1.2"});
-    rows.push_back({"solid.hf", "capped.ply", " --grid 30 --bounds -1.6,1.2 --cap --iso 0.1"});
+        rows.push_back(
+            {"solid.hf", std::string("out.") + extension, " --grid 30 --bounds -1.6,1.2 --method cells"});
+    rows.push_back({"solid.hf", "capped.ply", " --grid 30 --bounds -1.6,1.2 --cap --iso 0.1 --method cells"});
+    // Here pruning changes the last digits of vertices (docs/decisions/0014-adaptive-mesh.md).
+    rows.push_back({"solid.hf", "adaptive.ply", " --grid 30 --bounds -1.6,1.2 --cap --iso 0.1", false});
+    rows.push_back({"solid.hf", "merged.ply", " --grid 30 --bounds -1.6,1.2 --tolerance 0.02", false});
     rows.push_back({"solid.hf", "out.cli", " --layer 0.1"});
     for (const char* extension : {"svg", "dxf"})
         rows.push_back({"flat.hf", std::string("flat.") + extension, ""});
@@ -58,7 +63,8 @@ TEST_CASE("mesh: the same bytes for every number of threads in every format") {
         const std::string one = bytes_of(folder, row.model + row.more + " -j 1", row.file);
         CHECK(one.size() > 500);
         for (const char* other : {" -j 2", " -j 8", " -j 2 --no-prune"})
-            CHECK(bytes_of(folder, row.model + row.more + other, row.file) == one);
+            if (row.ignores_pruning || !std::string_view(other).ends_with("--no-prune"))
+                CHECK(bytes_of(folder, row.model + row.more + other, row.file) == one);
     }
     const std::string report = " --grid 20 --report r.json";
     const auto without_run = [&](const char* threads) {
