@@ -82,8 +82,9 @@ inline float farthest(const Row& a) {
     V far = all(0.0f);
     for (int c = 0; c < 16; c += width)
         far = most(far, most(magnitude(load(a.lo + c)), magnitude(load(a.hi + c))));
-    float most_of = 0;
-    for (int i = 0; i < width; ++i) most_of = far[i] > most_of ? far[i] : most_of;
+    for (int step = width / 2; step > 0; step /= 2)
+        for (int i = 0; i < step; ++i) far[i] = far[i] < far[i + step] ? far[i + step] : far[i];
+    const float most_of = far[0];
     return most_of;
 }
 
