@@ -84,12 +84,39 @@ double register_tape_seconds(const Field& field) {
     });
 }
 
+/// The same for values and derivatives.
+double register_tape_gradient_seconds(const Field& field) {
+    using Dual = math::Dual<math::Lanes>;
+    const auto tape = make_tape(field, {&field.value, 1}, {});
+    if (!tape) return 0;
+    Machine<Dual> machine(*tape, 1000);
+    Points<double> points;
+    std::vector<double> slopes(3 * total_points);
+    return seconds([&] {
+        const std::size_t batch = machine.width() * 4;
+        for (std::size_t start = 0; start < total_points; start += batch) {
+            const std::size_t elements = std::min(batch, total_points - start) / 4;
+            for (const std::uint32_t i : tape->inputs)
+                for (std::size_t e = 0; e < elements; ++e)
+                    machine.input(i)[e] = Dual::variable(
+                        math::Lanes::load(points.columns[i].data() + start + 4 * e), static_cast<int>(i));
+            machine.run(elements);
+            const auto row = machine.output(0);
+            for (std::size_t e = 0; e < elements; ++e) {
+                row[e].value.store(points.f.data() + start + 4 * e);
+                for (std::size_t i = 0; i < 3; ++i)
+                    row[e].d[i].store(slopes.data() + i * total_points + start + 4 * e);
+            }
+        }
+    });
+}
+
 struct Report {
     std::string model;
     std::size_t clauses;
-    double old;  ///< seconds of the register tape
+    double old_values, old_gradients;  ///< seconds of the register tape
 
-    void line(const char* what, Isa isa, std::size_t batch, double took) const {
+    void line(const char* what, Isa isa, std::size_t batch, double took, double old) const {
         const double rate = static_cast<double>(total_points) / took;
         fmt::print("{:16} {:>6} {:18} {:7} {:>5} {:>10.2f} {:>8.2f} {:>7.2f}\n", model, clauses, what,
                    name_of(isa), batch, 1e-6 * rate, 1e-9 * rate * static_cast<double>(clauses), old / took);
@@ -111,14 +138,15 @@ void measure(const Report& report, const ClauseTape& tape, Isa isa) {
                 vm.values(tape, in, batch, points.f.data() + start);
             }
         });
-        report.line(wide ? "binary64" : "binary32", isa, batch, took);
+        report.line(wide ? "binary64" : "binary32", isa, batch, took, report.old_values);
     }
     std::vector<Real> slopes[3];
     for (auto& column : slopes) column.resize(total_points);
     Real* const out[3] = {slopes[0].data(), slopes[1].data(), slopes[2].data()};
     const Real* in[3] = {points.columns[0].data(), points.columns[1].data(), points.columns[2].data()};
     const double took = seconds([&] { vm.gradients(tape, in, total_points, points.f.data(), out); });
-    report.line(wide ? "binary64 gradients" : "binary32 gradients", isa, total_points, took);
+    report.line(wide ? "binary64 gradients" : "binary32 gradients", isa, total_points, took,
+                report.old_gradients);
 }
 
 }  // namespace
@@ -140,8 +168,9 @@ int main(int argc, char** argv) {
         pack_rows(*tape);
         const std::size_t slash = path.rfind('/');
         const Report report{slash == std::string::npos ? path : path.substr(slash + 1), tape->clauses.size(),
-                            register_tape_seconds(*field)};
-        report.line("register tape", Isa::sse2, total_points, report.old);
+                            register_tape_seconds(*field), register_tape_gradient_seconds(*field)};
+        report.line("register tape", Isa::sse2, total_points, report.old_values, report.old_values);
+        report.line("its gradients", Isa::sse2, total_points, report.old_gradients, report.old_gradients);
         for (const Isa isa : {Isa::sse2, Isa::avx2, Isa::avx512}) {
             if (isa > machine_isa()) continue;
             measure<double>(report, *tape, isa);
