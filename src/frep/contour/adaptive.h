@@ -14,10 +14,10 @@
 namespace frep {
 
 /// Attributes are taken at the crossings of the lattice's edges, a hair inside the surface; vertices inside
-/// of cells have the mean of those around them. These come first: result.edge_vertices is 0. With the cap the closing sides lie outside of the box, by a
-/// small part of a cell. Errors: invalid_argument for bad bounds, cell sizes (see make_grid) or a tolerance
-/// that is negative or not finite, over_limit for too many cells or vertices, or more memory than the limit;
-/// cancelled.
+/// of cells have the mean of those around them. These come first: result.edge_vertices is 0. With the cap the
+/// closing sides lie outside of the box, by a small part of a cell. Errors: invalid_argument for bad bounds,
+/// cell sizes (see make_grid) or a tolerance that is negative or not finite, over_limit for too many cells or
+/// vertices, or more memory than the limit; cancelled.
 Result<ContourResult> contour_adaptive(const SampledField& field, const ContourOptions& options,
                                        const Job& job);
 

@@ -5,8 +5,8 @@ namespace frep::contouring {
 
 namespace {
 
-constexpr int most_steps = 32;         // bisection needs 30 to reach root_width
-constexpr double secant_shift = 1e-3;  // towards the middle, times the squared width
+constexpr int most_steps = 32;        // bisection needs 30 to reach root_width
+constexpr double secant_shift = 0.1;  // towards the middle, times the squared way to the nearer end
 
 /// The value that the secant takes for the end that stays where it is, after the other end's value went from
 /// `old` to `now`: scaled down, so that the end is soon replaced too (Anderson and Bjorck 1973).
@@ -22,7 +22,9 @@ double next_try(double low, double high, double low_value, double high_value, in
     if (!(secant >= low && secant <= high)) return middle;
     const double to_middle = middle - secant;
     const double distance = to_middle < 0 ? -to_middle : to_middle;
-    const double shift = secant_shift * width * width;
+    const double to_low = secant - low, to_high = high - secant;
+    const double near = to_low < to_high ? to_low : to_high;
+    const double shift = secant_shift * near * near;
     const double least = 0.3 * root_width;
     const double moved = shift > least ? shift : least;
     const double sign = to_middle < 0 ? -1 : 1;
