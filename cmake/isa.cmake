@@ -10,7 +10,7 @@ function(frep_isa_flags)
       set_source_files_properties(${source} PROPERTIES COMPILE_OPTIONS "-mavx2")
     elseif(source MATCHES "_avx512\\.cpp$")
       set_source_files_properties(${source} PROPERTIES COMPILE_OPTIONS
-                                  "-mavx512f;-mavx512dq;-mavx512vl;-mavx512bw")
+                                  "-mavx512f;-mavx512dq;-mavx512vl;-mavx512bw;-mprefer-vector-width=512")
     endif()
   endforeach()
 endfunction()

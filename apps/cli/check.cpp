@@ -25,7 +25,7 @@ Diagnostics all_findings(const Model& model) {
     if (!model.ok()) return all;
     for (std::size_t i = 0; i < model.program().objects.size(); ++i) {
         Diagnostics found;
-        static_cast<void>(model.lower(i, {}, found));
+        if (const auto lowered = model.lower(i, {}, found)) model.advise(*lowered, found);
         for (const Diagnostic& d : found.list()) {
             bool is_known = false;
             for (const Diagnostic& known : all.list()) is_known = is_known || same_finding(d, known);

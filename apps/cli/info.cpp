@@ -131,6 +131,7 @@ Json object_json(const Model& model, const ObjectFacts& facts) {
             {"functions", facts.lowered.functions},
             {"operations_before", facts.lowered.operations_before},
             {"operations_after", facts.operations_after},
+            {"operations_lifted", facts.lowered.lifted.total()},
             {"loops_depend_on_point", facts.lowered.has_regions}};
 }
 
@@ -189,6 +190,9 @@ std::string object_text(const Model& model, const ObjectFacts& facts) {
                                               : fmt::format("{}", fmt::join(facts.lowered.functions, " ")));
     out += fmt::format("  operations  {} as written, {} after simplification\n",
                        facts.lowered.operations_before, facts.operations_after);
+    if (const LiftReport& lifted = facts.lowered.lifted; lifted.total() > 0)
+        out += fmt::format("  lifted      {} R-functions, {} minima and maxima from sums\n",
+                           lifted.r_functions, lifted.min_max);
     if (facts.lowered.has_regions) out += "  loops       some depend on the point: pruning may find less\n";
     return out;
 }

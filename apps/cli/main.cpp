@@ -36,6 +36,7 @@ constexpr std::array verbs = {
     Verb{"convert", "a mesh file in another format, or a model in an exchange form", run_convert},
     Verb{"field", "the function on a plane as a figure", run_field},
     Verb{"render", "a picture of a solid", run_render},
+    Verb{"bench", "how long loading, evaluating, pictures and meshes take", run_bench},
 };
 
 std::string version_line() {

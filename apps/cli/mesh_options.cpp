@@ -91,15 +91,18 @@ Status plan_outputs(const MeshOptions& options, MeshPlan& plan) {
     return {};
 }
 
-Status plan_method(const MeshOptions& options) {
-    if (options.method && *options.method == "adaptive")
-        return usage("--method adaptive comes with a later version; this one has --method cells");
-    if (options.method && *options.method != "cells")
-        return usage(fmt::format("--method: `{}` is not one of adaptive, cells", *options.method));
-    if (options.tolerance)
-        return usage(
-            "--tolerance belongs to --method adaptive, which comes with a later version; "
-            "use --grid or --cell");
+Status plan_method(const MeshOptions& options, MeshPlan& plan) {
+    const std::string method = options.method.value_or("adaptive");
+    if (method != "adaptive" && method != "cells")
+        return usage(fmt::format("--method: `{}` is not one of adaptive, cells", method));
+    plan.is_adaptive = method == "adaptive";
+    if (options.tolerance) {
+        if (!plan.is_adaptive) return usage("--tolerance belongs to --method adaptive");
+        if (options.layer) return usage("--tolerance belongs to meshes of solids, not to slices");
+        const auto length = parse_positive(*options.tolerance);
+        if (!length) return about("--tolerance", length.error());
+        plan.tolerance = *length;
+    }
     if (options.grid && options.cell) return usage("give either --grid or --cell");
     return {};
 }
@@ -192,10 +195,12 @@ void declare_mesh_options(CommandLine& line, MeshOptions& options) {
               "standard output");
     line.text("--format", options.format, "FORMAT", "stl, ply, ..., whatever the file is called");
     line.flag("--ascii", options.ascii, "text in place of binary (.stl, .ply)");
-    line.text("--method", options.method, "METHOD", "cells: the marching of uniform cubic cells");
+    line.text("--method", options.method, "METHOD",
+              "adaptive (default): sharp edges are kept; cells: uniform cubic cells");
     line.text("--grid", options.grid, "N", "cells along the longest side (default 96; 2-D and slices 256)");
     line.text("--cell", options.cell, "LENGTH", "side of a cell, in place of --grid");
-    line.text("--tolerance", options.tolerance, "LENGTH", "of --method adaptive, in a later version");
+    line.text("--tolerance", options.tolerance, "LENGTH",
+              "cells merge where the mesh stays this near to the surface");
     line.text("--layer", options.layer, "LENGTH", "slices of this thickness, for a .cli file");
     line.text("--iso", options.iso, "V", "the surface F = V (default 0)");
     line.flag("--cap", options.cap, "close the shape where the box cuts it");
@@ -214,8 +219,7 @@ void declare_mesh_options(CommandLine& line, MeshOptions& options) {
 
 Result<MeshPlan> plan_mesh(const MeshOptions& options) {
     MeshPlan plan;
-    if (const Status status = plan_method(options); !status) return status.error();
-    for (const auto step : {plan_sampling, plan_outputs, plan_extras, plan_objects}) {
+    for (const auto step : {plan_method, plan_sampling, plan_outputs, plan_extras, plan_objects}) {
         if (const Status status = step(options, plan); !status) return status.error();
     }
     return plan;

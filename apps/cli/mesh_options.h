@@ -35,6 +35,8 @@ struct MeshPlan {
     double iso = 0;
     std::optional<int> cells;
     double cell_length = 0;
+    bool is_adaptive = true;  ///< --method of solids
+    double tolerance = 0;
     double layer = 0;  ///< > 0: slices of this thickness
     bool cap = false, prune = true;
     std::optional<std::size_t> memory_limit;

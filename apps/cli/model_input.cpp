@@ -112,6 +112,8 @@ void declare_model_options(CommandLine& line, ModelOptions& options) {
     line.text("--map", options.map, "MAP",
               "x, y, z or a number for every coordinate; or NAME=V to freeze some");
     line.text("--engine", options.engine, "NAME", "engine to evaluate with (see frep info --engines)");
+    line.flag("--no-lift", options.no_lift,
+              "leave set operations that are spelled out by roots or absolute values as they are");
     line.text("--max-steps", options.max_steps, "N", "loop steps at one point (default 1000000)");
     line.text("-j,--threads", options.threads, "N", "threads (default: all cores); the result is the same");
 }
@@ -133,7 +135,7 @@ std::optional<PreparedModel> prepare_model(const ModelOptions& options, int& cod
     if (!parameters) return std::nullopt;
 
     Diagnostics found = out.model.diagnostics();
-    auto lowered = out.model.lower(*object, *parameters, found);
+    auto lowered = out.model.lower(*object, *parameters, found, !options.no_lift);
     print_diagnostics(found, out.model.source());
     if (!lowered) {
         code = exit_invalid_model;

@@ -30,6 +30,7 @@ struct ModelOptions {
     std::string input;
     std::optional<std::string> object, values, engine, map, max_steps, threads;
     std::vector<std::string> named_values;
+    bool no_lift = false;
 };
 void declare_model_options(CommandLine& line, ModelOptions& options);
 

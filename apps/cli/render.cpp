@@ -75,7 +75,8 @@ class RenderRun {
         if (!scene.has_solid()) print_warning("there is nothing to see: the solid is empty in the box");
         if (scene.sampled())
             print_warning(
-                "intervals say nothing about this function, so the surface was looked for at samples: "
+                "intervals say nothing about this function or take too long, so the surface was looked for "
+                "at samples: "
                 "details finer than a hundredth of the box may be missed");
     }
 

@@ -28,5 +28,6 @@ int run_mesh(Arguments arguments);
 int run_convert(Arguments arguments);
 int run_field(Arguments arguments);
 int run_render(Arguments arguments);
+int run_bench(Arguments arguments);
 
 }  // namespace frep::cli

@@ -14,14 +14,19 @@
 #include "frep/base/job.h"
 #include "frep/base/parallel.h"
 #include "frep/base/result.h"
+#include "frep/contour/adaptive.h"
 #include "frep/contour/bounds.h"
 #include "frep/contour/contour.h"
 #include "frep/contour/contour_2d.h"
 #include "frep/contour/mesh_error.h"
 #include "frep/contour/slices.h"
+#include "frep/eval/batch_vm.h"
+#include "frep/eval/clause_tape.h"
 #include "frep/eval/evaluator.h"
+#include "frep/eval/isa.h"
 #include "frep/eval/native_code.h"
 #include "frep/eval/plane.h"
+#include "frep/eval/prune.h"
 #include "frep/eval/sampled_field.h"
 #include "frep/field/expression.h"
 #include "frep/field/field.h"
@@ -47,6 +52,8 @@
 #include "frep/trace/plane_picture.h"
 #include "frep/trace/plane_render.h"
 #include "frep/trace/solid_picture.h"
+#include "frep/trace/tile_depth.h"
+#include "frep/trace/tile_sign.h"
 
 namespace frep {
 

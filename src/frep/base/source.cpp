@@ -44,9 +44,18 @@ std::string to_valid_utf8(std::string_view bytes) {
     std::string out;
     out.reserve(bytes.size());
     while (!bytes.empty()) {
-        const std::size_t length = sequence_length(bytes);
-        out.append(length ? bytes.substr(0, length) : replacement_character);
-        bytes.remove_prefix(length ? length : 1);
+        std::size_t plain = 0;  // bytes that need no change
+        std::size_t length = 1;
+        while (plain < bytes.size() && length > 0) {
+            const bool ascii = static_cast<unsigned char>(bytes[plain]) < 0x80;
+            length = ascii ? 1 : sequence_length(bytes.substr(plain));
+            plain += length;
+        }
+        out.append(bytes.substr(0, plain));
+        bytes.remove_prefix(plain);
+        if (bytes.empty()) break;
+        out.append(replacement_character);
+        bytes.remove_prefix(1);
     }
     return out;
 }
@@ -89,6 +98,7 @@ Source::Source(std::string name, std::string_view bytes) : name_(std::move(name)
     if (bytes.starts_with("\xEF\xBB\xBF")) bytes.remove_prefix(3);
     text_ = to_valid_utf8(bytes);
     for (std::size_t i = 0; i < text_.size(); ++i) {
+        if (text_[i] > '\r') continue;
         const bool crlf = text_[i] == '\r' && i + 1 < text_.size() && text_[i + 1] == '\n';
         if (text_[i] == '\n' || (text_[i] == '\r' && !crlf))
             line_starts_.push_back(static_cast<std::uint32_t>(i + 1));

@@ -2,6 +2,7 @@
 // on the predicate "defined and F >= 0", all edges of the block in one batch (docs/numerics.md, rule 9).
 #include "frep/contour/block.h"
 
+#include <algorithm>
 #include <limits>
 
 #include "frep/contour/cell.h"
@@ -46,7 +47,18 @@ void BlockContourer::Brackets::clear() {
     node.clear();
 }
 
-std::unique_ptr<BlockMesh> BlockContourer::contour(std::uint64_t code) {
+Box3 block_box(const Grid& grid, std::uint64_t code) {
+    std::array<std::uint32_t, 3> first = morton_decode(code), last{};
+    for (std::size_t a = 0; a < 3; ++a) {
+        const std::uint32_t lo = first[a] * block_side;  // with layer: sample i is number i + 1
+        first[a] = lo == 0 ? 0 : lo - 1;
+        last[a] = std::min(lo + block_side - 1, grid.cells[a]);
+    }
+    return {grid.point(first[0], first[1], first[2]), grid.point(last[0], last[1], last[2])};
+}
+
+std::unique_ptr<BlockMesh> BlockContourer::contour(std::uint64_t code, SampledField* part) {
+    part_ = part ? part : &field_;
     place(code);
     if (!sample(code)) return nullptr;
     mesh_.edges.clear();
@@ -96,7 +108,7 @@ bool BlockContourer::sample(std::uint64_t code) {
         }
     }
     out_.resize(x_.size());
-    field_.values({x_, y_, z_}, out_);
+    part_->values({x_, y_, z_}, out_);
     if (x_.size() < lattice_size) values_.fill(outside_by_decree);
     const double* next = out_.data();
     for (l[2] = first_[2]; l[2] <= last_[2]; ++l[2]) {
@@ -241,7 +253,7 @@ void BlockContourer::bisect() {
     const std::array<std::size_t, 3> first{0, brackets_[0].size(), brackets_[0].size() + brackets_[1].size()};
     for (int step = 0; step < bisection_steps; ++step) {
         for (std::size_t a = 0; a < 3; ++a) set_middles(a, first[a]);
-        field_.values({x_, y_, z_}, out_);
+        part_->values({x_, y_, z_}, out_);
         for (std::size_t a = 0; a < 3; ++a) {
             Brackets& b = brackets_[a];
             const double* value = out_.data() + first[a];
@@ -314,7 +326,7 @@ void BlockContourer::take_normals() {
             column(a)[p++] = component(mesh_.positions[node], a);
         }
     }
-    field_.gradients({x_, y_, z_}, out_, {gx_, gy_, gz_});
+    part_->gradients({x_, y_, z_}, out_, {gx_, gy_, gz_});
     p = 0;
     for (const Brackets& b : brackets_) {
         for (std::size_t i = 0; i < b.size(); ++i, ++p) {

@@ -35,6 +35,9 @@ struct BlockMesh {
     std::vector<PolygonNode> polygons;
 };
 
+/// The box around all samples of the cells of the block with this code.
+Box3 block_box(const Grid& grid, std::uint64_t code);
+
 /// -gradient / |gradient|, the outward unit normal; the zero vector if the gradient is zero or not finite.
 Vec3 outward_normal(Vec3 gradient);
 
@@ -47,10 +50,11 @@ struct BlockOptions {
 class BlockContourer {
   public:
     BlockContourer(const Grid& grid, SampledField& field, const BlockOptions& options)
-        : grid_(grid), field_(field), options_(options) {}
+        : grid_(grid), field_(field), part_(&field), options_(options) {}
 
-    /// The mesh of the block with this code; null when there is none. Adds to the tallies below.
-    std::unique_ptr<BlockMesh> contour(std::uint64_t code);
+    /// The mesh of the block with this code; null when there is none. Adds to the tallies below. `part`, if
+    /// not null, stands for the field in block_box().
+    std::unique_ptr<BlockMesh> contour(std::uint64_t code, SampledField* part = nullptr);
 
     UndefinedTally undefined;
     std::array<bool, 6> touches{};
@@ -109,7 +113,8 @@ class BlockContourer {
     std::vector<double>& column(std::size_t axis) { return axis == 0 ? x_ : axis == 1 ? y_ : z_; }
 
     const Grid& grid_;
-    SampledField& field_;
+    SampledField& field_;  ///< has the attributes
+    SampledField* part_;   ///< F, in the present block
     BlockOptions options_;
 
     Local lo_{};               ///< first sample of the block, with layer

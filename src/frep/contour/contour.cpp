@@ -17,7 +17,7 @@ namespace {
 
 using namespace contouring;
 
-constexpr std::size_t blocks_a_task = 16;
+constexpr std::size_t blocks_a_task = 16;  // as many as are narrowed in one pass
 /// Estimated peak memory for a vertex with its triangles: in its block, and in the mesh.
 constexpr std::size_t bytes_a_vertex = 140;
 /// And for an attribute of it: in its block, in the mesh, as a color.
@@ -47,11 +47,17 @@ Sampling sample_blocks(const Grid& grid, const std::vector<std::uint64_t>& block
         if (over_limit) return;
         const FieldPool::Lease field = fields.borrow();
         BlockContourer contourer(grid, *field, {.cap = options.cap, .attributes = options.attributes});
+        const std::size_t first = t * blocks_a_task;
+        std::vector<FieldPart> parts;
+        for (std::size_t i = first; i < std::min(first + blocks_a_task, blocks.size()); ++i)
+            parts.push_back({block_box(grid, blocks[i]), nullptr});
+        std::vector<SignRange> ranges(parts.size());
+        if (options.prune) narrow_parts(*field, parts, ranges);
         std::size_t made = 0;
-        const std::size_t end = std::min((t + 1) * blocks_a_task, blocks.size());
-        for (std::size_t i = t * blocks_a_task; i < end; ++i) {
-            result.parts[i] = contourer.contour(blocks[i]);
-            if (result.parts[i]) made += result.parts[i]->edges.size();
+        for (std::size_t i = 0; i < parts.size(); ++i) {
+            std::unique_ptr<BlockMesh>& mesh = result.parts[first + i];
+            mesh = contourer.contour(blocks[first + i], parts[i].field.get());
+            if (mesh) made += mesh->edges.size();
         }
         if ((vertices += made) > options.memory_limit / vertex_bytes) over_limit = true;
         const std::lock_guard lock(mutex);

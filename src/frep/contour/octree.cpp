@@ -102,9 +102,19 @@ void subdivide(std::span<const std::uint64_t> parents, int level, const Grid& gr
         found.undecided = std::move(codes);
         return;
     }
+    if (boxes.empty()) return;
+    // What stands for F around all of them judges each.
+    Box3 around = boxes[0];
+    for (const Box3& box : boxes)
+        around = {{std::min(around.min.x, box.min.x), std::min(around.min.y, box.min.y),
+                   std::min(around.min.z, box.min.z)},
+                  {std::max(around.max.x, box.max.x), std::max(around.max.y, box.max.y),
+                   std::max(around.max.z, box.max.z)}};
     std::vector<SignRange> ranges(boxes.size());
     const FieldPool::Lease field = fields.borrow();
-    field->ranges(boxes, ranges);
+    FieldPart whole{around, nullptr};
+    narrow_parts(*field, {&whole, 1}, {ranges.data(), 1});
+    (whole.field ? *whole.field : *field).ranges(boxes, ranges);
     for (std::size_t i = 0; i < codes.size(); ++i) {
         judge(parts[i], codes[i], level, ranges[i], grid, options.cap, found);
     }

@@ -49,13 +49,34 @@ struct Source {
     const Real* at;
     std::size_t step;
 };
-
+/// Two elements a turn, where an element is one register: that hides the latency of one behind the other.
+/// (Written out, since with a lambda for an element g++ 12 keeps the operands in memory.)
 template <int arity, class T, class Kernel, class Real>
 inline __attribute__((always_inline)) void loop(Kernel kernel, Source<Real> a, Source<Real> b, Source<Real> c,
                                                 Real* out, std::size_t numbers) {
     using E = Element<T>;
     static_assert(arity >= 1 && arity <= 3);
     Real* const end = out + numbers;
+    if constexpr (sizeof(T) <= 64) {
+        for (; out + E::numbers < end; out += 2 * E::numbers) {
+            const T a0 = E::load(a.at), a1 = E::load(a.at + a.step);
+            a.at += 2 * a.step;
+            const T b0 = arity > 1 ? E::load(b.at) : a0, b1 = arity > 1 ? E::load(b.at + b.step) : a1;
+            b.at += 2 * b.step;
+            const T c0 = arity > 2 ? E::load(c.at) : a0, c1 = arity > 2 ? E::load(c.at + c.step) : a1;
+            c.at += 2 * c.step;
+            if constexpr (arity == 1) {
+                E::store(kernel(a0), out);
+                E::store(kernel(a1), out + E::numbers);
+            } else if constexpr (arity == 2) {
+                E::store(kernel(a0, b0), out);
+                E::store(kernel(a1, b1), out + E::numbers);
+            } else {
+                E::store(kernel(a0, b0, c0), out);
+                E::store(kernel(a1, b1, c1), out + E::numbers);
+            }
+        }
+    }
     for (; out < end; out += E::numbers) {
         if constexpr (arity == 1) {
             E::store(kernel(E::load(a.at)), out);
@@ -81,13 +102,13 @@ constexpr bool has_loop(Op op, int arity, int cost) {
         case Op::log:
         case Op::sin:
         case Op::cos:
+        case Op::atan:
+        case Op::atan2:
             return true;
         case Op::log10:
         case Op::tan:
         case Op::asin:
         case Op::acos:
-        case Op::atan:
-        case Op::atan2:
         case Op::sinh:
         case Op::cosh:
         case Op::tanh:

@@ -13,8 +13,9 @@
 namespace frep {
 namespace {
 
-/// Bytes of a batch that shall lie in the first cache, and the points of one.
-constexpr std::size_t cache_bytes = 24 << 10;
+/// Bytes of the rows of a batch, which shall lie in the second cache, and the points of one. (A batch in the
+/// first cache is worth less than fewer batches: a clause costs as much as some ten registers of points.)
+constexpr std::size_t cache_bytes = 192 << 10;
 constexpr std::size_t least_points = 32, most_points = 512;
 
 template <class Real>
@@ -62,7 +63,7 @@ class BatchVm<Real>::Machine {
     void values(const ClauseTape& tape, std::span<const Real* const> coordinates, std::size_t count,
                 Real* out) {
         const FloatControl control;
-        prepare(tape, values_);
+        prepare(tape, coordinates.size(), values_);
         frame_.other = [](void* owner, const Clause& clause, Real* to) {
             Machine& machine = *static_cast<Machine*>(owner);
             machine.other_.values(machine.call_of(clause, to));
@@ -76,7 +77,7 @@ class BatchVm<Real>::Machine {
     void gradients(const ClauseTape& tape, std::span<const Real* const> coordinates, std::size_t count,
                    Real* values, std::span<Real* const> partials) {
         const FloatControl control;
-        prepare(tape, gradients_);
+        prepare(tape, coordinates.size(), gradients_);
         frame_.other = [](void* owner, const Clause& clause, Real* to) {
             Machine& machine = *static_cast<Machine*>(owner);
             machine.other_.gradients(machine.call_of(clause, to));
@@ -111,11 +112,11 @@ class BatchVm<Real>::Machine {
     }
 
     /// Makes the table ready for the constants of the tape.
-    void prepare(const ClauseTape& tape, Table& table) {
+    void prepare(const ClauseTape& tape, std::size_t coordinates, Table& table) {
         tape_ = &tape;
         table_ = &table;
         if (table.data != tape.data) fill_constants(table, tape.data);
-        coordinates_ = static_cast<std::size_t>(table.data->coordinates);
+        coordinates_ = std::min(coordinates, static_cast<std::size_t>(table.data->coordinates));
         frame_.constants = static_cast<RowNumber>(table.data->constants.size());
         frame_.clauses = tape.clauses.data();
         frame_.clause_count = tape.clauses.size();
@@ -175,6 +176,7 @@ class BatchVm<Real>::Machine {
         const std::size_t numbers = whole_elements(points);
         frame_.numbers = numbers;
         for (std::size_t i = 0; i < coordinates_; ++i) {
+            if (!coordinates[i]) continue;
             const Real*& leaf = table_->rows[frame_.constants + i];
             leaf = coordinates[i] + start;
             if (numbers == points) continue;
@@ -205,6 +207,7 @@ class BatchVm<Real>::Machine {
         frame_.numbers = elements * element;
         frame_.last_out = nullptr;
         for (std::size_t i = 0; i < coordinates_; ++i) {
+            if (!coordinates[i]) continue;
             Real* to = copies_ + i * table_->stride;
             table_->rows[frame_.constants + i] = to;
             const Real* const from = coordinates[i] + pass.start;

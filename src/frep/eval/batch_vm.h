@@ -1,8 +1,9 @@
 // BatchVm: runs a clause tape over batches of points, in binary64 or binary32, in the widest registers that
 // the machine has (isa.h). In binary64 values and gradients have the bits of every other engine; binary32
 // follows the profile of docs/numerics.md, rule 14, with the same bits on every instruction set. Method: rows
-// of a batch lie in the first cache; one switch a clause, one loop over lanes a case (batch_loops.h); what is
-// rare or dear goes through meaning<T> (batch_other.h). Tested by tests/unit/eval/batch_vm_test.cpp.
+// of a batch lie in the second cache at most; one switch a clause, one loop over lanes a case
+// (batch_loops.h); what is rare or dear goes through meaning<T> (batch_other.h). Tested by
+// tests/unit/eval/batch_vm_test.cpp.
 #pragma once
 
 #include <cstddef>
@@ -25,7 +26,8 @@ class BatchVm {
     BatchVm(BatchVm&&) noexcept;
     BatchVm& operator=(BatchVm&&) noexcept;
 
-    /// F at `count` points: coordinates[i][p] is coordinate i of point p (all that the tape's data name);
+    /// F at `count` points: coordinates[i][p] is coordinate i of point p (those that the tape
+    /// does not read may be null);
     /// out[p] receives F, NaN where undefined. `out` may not overlap the coordinates. Tapes are taken as they
     /// are, in single assignment or packed; long ones should be packed (pack_rows), for the rows of a batch
     /// to lie in the cache.

@@ -46,6 +46,7 @@ class Translator {
 
     void translate(const std::vector<NodeId>& order, ClauseTape& tape) {
         RowNumber next = data_.first_value_row();
+        tape.clauses.reserve(order.size() - std::min(order.size(), data_.constants.size()) + 1);
         for (const NodeId id : order) {
             const Node& node = graph_.node(id);
             if (node.op == Op::coordinate) row_of_[id] = data_.coordinate_row(static_cast<int>(node.payload));
@@ -94,7 +95,7 @@ class Translator {
 
 }  // namespace
 
-std::optional<ClauseTape> make_clause_tape(const Field& field, double iso) {
+std::optional<ClauseTape> make_clause_tape(const Field& field) {
     auto data = std::make_shared<ClauseData>();
     data->graph = field.graph;
     data->coordinates = field.coordinates;
@@ -102,21 +103,37 @@ std::optional<ClauseTape> make_clause_tape(const Field& field, double iso) {
     const std::vector<NodeId>& order = scheduler.schedule({&field.value, 1});
     Translator translator(field, *data);
     if (!translator.number_leaves(order)) return std::nullopt;
-    const auto iso_row = static_cast<RowNumber>(data->constants.size());
-    if (iso != 0) data->constants.push_back(iso);
     ClauseTape tape;
     translator.translate(order, tape);
     tape.root = translator.row_of(field.value);
-    if (iso != 0) {
-        Clause shift;
-        shift.op = Op::sub;
-        shift.count = 2;
-        shift.in = {tape.root, iso_row, 0};
-        shift.out = tape.root = tape.rows++;
-        tape.clauses.push_back(shift);
-    }
     tape.data = std::move(data);
     return tape;
+}
+
+ClauseTape shifted(const ClauseTape& tape, double iso) {
+    if (iso == 0) return tape;
+    // The new constant comes after the others, so that all later rows move up by one.
+    auto data = std::make_shared<ClauseData>(*tape.data);
+    const auto iso_row = static_cast<RowNumber>(data->constants.size());
+    data->constants.push_back(iso);
+    const auto moved = [&](RowNumber row) { return row < iso_row ? row : row + 1; };
+    ClauseTape out = tape;
+    out.data = std::move(data);
+    for (Clause& clause : out.clauses) {
+        clause.out = moved(clause.out);
+        if (!clause.listed)
+            for (RowNumber& row : clause.in) row = moved(row);
+    }
+    for (RowNumber& row : out.operands) row = moved(row);
+    Clause shift;
+    shift.op = Op::sub;
+    shift.count = 2;
+    shift.out = tape.rows + 1;
+    shift.in = {moved(tape.root), iso_row, 0};
+    out.clauses.push_back(shift);
+    out.root = shift.out;
+    out.rows = tape.rows + 2;
+    return out;
 }
 
 void pack_rows(ClauseTape& tape) {

@@ -65,9 +65,12 @@ struct ClauseTape {
     }
 };
 
-/// The tape of F - iso, in single assignment: clause i writes row first_value_row() + i. Nothing where F
-/// needs a region. field.parameters must be bound (bind_parameters) or present.
-std::optional<ClauseTape> make_clause_tape(const Field& field, double iso = 0);
+/// The tape of F, in single assignment: clause i writes row first_value_row() + i. Nothing where F needs a
+/// region. field.parameters must be bound (bind_parameters) or present.
+std::optional<ClauseTape> make_clause_tape(const Field& field);
+
+/// The tape of F - iso for the tape of F; with ClauseData of its own where iso is not 0.
+ClauseTape shifted(const ClauseTape& tape, double iso);
 
 /// The same clauses over as few value rows as live at one time: a row is used again once its last reader is
 /// done, and never by the clause that reads it last (so a clause never writes a row that it reads). `tape`

@@ -15,6 +15,8 @@
 
 namespace frep {
 
+struct ClauseTape;
+
 enum class Engine {
     reference,  ///< node by node in double: slow, obvious, the oracle
     vm,         ///< register tape over batches of lanes
@@ -46,6 +48,9 @@ class Evaluator {
     /// Enclosures of F over `count` boxes.
     virtual void intervals(std::span<const math::Interval* const> coordinates, std::size_t count,
                            math::Interval* out) = 0;
+    /// The tape of F in single assignment, to be pruned for parts of space; null where there is none (an
+    /// engine without tapes, a field that needs a region).
+    virtual const ClauseTape* clauses() const { return nullptr; }
 };
 
 /// An evaluator of `field`. Errors: over_limit when the tape would exceed the memory limit.

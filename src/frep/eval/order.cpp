@@ -17,7 +17,8 @@ const std::vector<NodeId>& Scheduler::schedule(std::span<const NodeId> roots) {
 
 void Scheduler::collect(std::span<const NodeId> roots) {
     nodes_.clear();
-    std::vector<NodeId> open(roots.begin(), roots.end());
+    std::vector<NodeId>& open = sorted_;
+    open.assign(roots.begin(), roots.end());
     while (!open.empty()) {
         const NodeId id = open.back();
         open.pop_back();
@@ -27,7 +28,13 @@ void Scheduler::collect(std::span<const NodeId> roots) {
         for (NodeId argument : graph_.arguments(id))
             if (!need_[argument]) open.push_back(argument);
     }
-    std::sort(nodes_.begin(), nodes_.end());
+    if (nodes_.size() < need_.size() / 16) {
+        std::sort(nodes_.begin(), nodes_.end());
+        return;
+    }
+    nodes_.clear();
+    for (NodeId id = 0; id < need_.size(); ++id)
+        if (need_[id]) nodes_.push_back(id);
 }
 
 /// The label of a node whose arguments are computed in order of falling labels: the i-th one needs its own
@@ -35,6 +42,10 @@ void Scheduler::collect(std::span<const NodeId> roots) {
 void Scheduler::label() {
     for (NodeId id : nodes_) {
         const auto arguments = graph_.arguments(id);
+        if (arguments.size() < 2) {
+            need_[id] = arguments.empty() ? 1 : need_[arguments[0]];
+            continue;
+        }
         if (arguments.size() == 2) {
             const std::uint32_t a = need_[arguments[0]], b = need_[arguments[1]];
             need_[id] = a == b ? a + 1 : std::max(a, b);
@@ -51,6 +62,7 @@ void Scheduler::label() {
 void Scheduler::walk(std::span<const NodeId> roots) {
     constexpr std::uint64_t leave = std::uint64_t{1} << 32;
     order_.clear();
+    order_.reserve(nodes_.size());
     for (NodeId root : roots) {
         stack_.assign(1, root);
         while (!stack_.empty()) {
@@ -66,8 +78,12 @@ void Scheduler::walk(std::span<const NodeId> roots) {
             stack_.push_back(id | leave);
             const auto arguments = graph_.arguments(id);
             sorted_.assign(arguments.begin(), arguments.end());
-            std::stable_sort(sorted_.begin(), sorted_.end(),
-                             [&](NodeId a, NodeId b) { return need_[a] < need_[b]; });
+            if (sorted_.size() == 2) {
+                if (need_[sorted_[1]] < need_[sorted_[0]]) std::swap(sorted_[0], sorted_[1]);
+            } else if (sorted_.size() > 2) {
+                std::stable_sort(sorted_.begin(), sorted_.end(),
+                                 [&](NodeId a, NodeId b) { return need_[a] < need_[b]; });
+            }
             for (NodeId argument : sorted_)  // the last one pushed is computed first
                 if (!placed_[argument]) stack_.push_back(argument);
         }

@@ -3,8 +3,11 @@
 
 #include <fmt/format.h>
 
-#include <array>
 #include <utility>
+
+#include "frep/eval/axis_columns.h"
+#include "frep/eval/clause_tape.h"
+#include "frep/eval/narrowed_field.h"
 
 namespace frep {
 
@@ -12,38 +15,24 @@ namespace {
 
 class MappedField final : public SampledField {
   public:
-    MappedField(std::unique_ptr<Evaluator> evaluator, AxisMap map, double iso)
-        : evaluator_(std::move(evaluator)), map_(std::move(map)), iso_(iso) {}
+    MappedField(std::unique_ptr<Evaluator> evaluator, const AxisMap& map, double iso)
+        : evaluator_(std::move(evaluator)), columns_(map), iso_(iso) {}
 
     std::unique_ptr<SampledField> clone() const override {
-        return std::make_unique<MappedField>(evaluator_->clone(), map_, iso_);
+        return std::make_unique<MappedField>(evaluator_->clone(), columns_.map(), iso_);
     }
 
     void values(const PointSpans& points, std::span<double> out) override {
-        const std::size_t count = points.size();
-        set_inputs(points);
         outputs_.assign(1, out.data());
-        evaluator_->values(inputs_, count, outputs_);
-        for (std::size_t p = 0; p < count; ++p) out[p] -= iso_;
+        evaluator_->values(columns_.coordinates(points), points.size(), outputs_);
+        for (double& f : out) f -= iso_;
     }
 
     void gradients(const PointSpans& points, std::span<double> values, const GradientSpans& out) override {
-        const std::size_t count = points.size();
-        set_inputs(points);
-        partials_.resize(map_.coordinates.size() * count);
-        outputs_.clear();
-        for (std::size_t i = 0; i < map_.coordinates.size(); ++i) outputs_.push_back(&partials_[i * count]);
-        evaluator_->gradients(inputs_, count, values.data(), outputs_);
-        const std::array<std::span<double>, 3> axes{out.x, out.y, out.z};
-        for (const std::span<double>& axis : axes) {
-            for (double& d : axis) d = 0;
-        }
-        for (std::size_t i = 0; i < map_.coordinates.size(); ++i) {
-            if (map_.coordinates[i].axis < 0) continue;
-            const std::span<double>& axis = axes[static_cast<std::size_t>(map_.coordinates[i].axis)];
-            for (std::size_t p = 0; p < count; ++p) axis[p] += outputs_[i][p];
-        }
-        for (std::size_t p = 0; p < count; ++p) values[p] -= iso_;
+        const auto coordinates = columns_.coordinates(points);
+        evaluator_->gradients(coordinates, points.size(), values.data(), columns_.partials(points.size()));
+        columns_.sum_partials(out);
+        for (double& f : values) f -= iso_;
     }
 
     std::size_t attribute_count() const override {
@@ -53,23 +42,22 @@ class MappedField final : public SampledField {
     void attributes(const PointSpans& points, std::span<const std::span<double>> out) override {
         FREP_CHECK(out.size() <= attribute_count());
         const std::size_t count = points.size();
-        set_inputs(points);
         unused_.resize((attribute_count() + 1 - out.size()) * count);
         outputs_.assign(1, unused_.data());
         for (const std::span<double>& column : out) outputs_.push_back(column.data());
         for (std::size_t k = 1; outputs_.size() <= attribute_count(); ++k)
             outputs_.push_back(unused_.data() + k * count);
-        evaluator_->values(inputs_, count, outputs_);
+        evaluator_->values(columns_.coordinates(points), count, outputs_);
     }
 
     void ranges(std::span<const Box3> boxes, std::span<SignRange> out) override {
         const std::size_t count = boxes.size();
-        const std::size_t n = map_.coordinates.size();
+        const std::size_t n = columns_.count();
         intervals_.resize((n + 1) * count);
         interval_inputs_.clear();
         for (std::size_t i = 0; i < n; ++i) {
             math::Interval* column = &intervals_[i * count];
-            for (std::size_t b = 0; b < count; ++b) column[b] = side(boxes[b], map_.coordinates[i]);
+            for (std::size_t b = 0; b < count; ++b) column[b] = columns_.side(boxes[b], i);
             interval_inputs_.push_back(column);
         }
         math::Interval* result = intervals_.data() + n * count;
@@ -80,43 +68,29 @@ class MappedField final : public SampledField {
         }
     }
 
+    bool can_narrow() const override {
+        return evaluator_->clauses() && !has_dear_ranges(*evaluator_->clauses());
+    }
+
+    void narrow(std::span<const Box3> boxes, std::span<SignRange> out,
+                std::span<std::shared_ptr<SampledField>> parts) override {
+        if (!narrowing_ && evaluator_->clauses()) {
+            tape_ = shifted(*evaluator_->clauses(), iso_);
+            narrowing_ = std::make_shared<Narrowing>(columns_.map());
+        }
+        if (narrowing_)
+            Narrowing::narrow(narrowing_, tape_, boxes, out, parts);
+        else
+            SampledField::narrow(boxes, out, parts);
+    }
+
   private:
-    static math::Interval side(const Box3& box, const MappedCoordinate& source) {
-        switch (source.axis) {
-            case 0:
-                return {box.min.x, box.max.x};
-            case 1:
-                return {box.min.y, box.max.y};
-            case 2:
-                return {box.min.z, box.max.z};
-            default:
-                return {source.value, source.value};
-        }
-    }
-
-    void set_inputs(const PointSpans& points) {
-        const std::size_t count = points.size();
-        const std::array<const double*, 3> axes{points.x.data(), points.y.data(), points.z.data()};
-        const std::size_t n = map_.coordinates.size();
-        frozen_.resize(n * count);
-        inputs_.clear();
-        for (std::size_t i = 0; i < n; ++i) {
-            const MappedCoordinate& source = map_.coordinates[i];
-            if (source.axis >= 0) {
-                inputs_.push_back(axes[static_cast<std::size_t>(source.axis)]);
-                continue;
-            }
-            double* column = frozen_.data() + i * count;
-            for (std::size_t p = 0; p < count; ++p) column[p] = source.value;
-            inputs_.push_back(column);
-        }
-    }
-
     std::unique_ptr<Evaluator> evaluator_;
-    AxisMap map_;
+    AxisColumns columns_;
     double iso_;
-    std::vector<double> frozen_, unused_, partials_;
-    std::vector<const double*> inputs_;
+    ClauseTape tape_;  ///< of F - iso, once narrow() was called
+    std::shared_ptr<Narrowing> narrowing_;
+    std::vector<double> unused_;
     std::vector<double*> outputs_;
     std::vector<math::Interval> intervals_;
     std::vector<const math::Interval*> interval_inputs_;
@@ -125,6 +99,27 @@ class MappedField final : public SampledField {
 bool is_finite(double v) { return v - v == 0; }
 
 }  // namespace
+
+void SampledField::narrow(std::span<const Box3> boxes, std::span<SignRange> out,
+                          std::span<std::shared_ptr<SampledField>> parts) {
+    ranges(boxes, out);
+    for (std::shared_ptr<SampledField>& part : parts) part = nullptr;
+}
+
+void narrow_parts(SampledField& whole, std::span<FieldPart> parts, std::span<SignRange> ranges) {
+    std::vector<Box3> boxes;
+    std::vector<std::shared_ptr<SampledField>> narrowed;
+    for (std::size_t first = 0, last = 0; first < parts.size(); first = last) {
+        boxes.clear();
+        for (last = first; last < parts.size() && parts[last].field == parts[first].field; ++last)
+            boxes.push_back(parts[last].box);
+        narrowed.assign(boxes.size(), nullptr);
+        SampledField& field = parts[first].field ? *parts[first].field : whole;
+        field.narrow(boxes, ranges.subspan(first, boxes.size()), narrowed);
+        for (std::size_t n = 0; n < boxes.size(); ++n)
+            if (narrowed[n]) parts[first + n].field = std::move(narrowed[n]);
+    }
+}
 
 void SampledField::attributes(const PointSpans&, std::span<const std::span<double>> out) {
     FREP_CHECK(out.empty());

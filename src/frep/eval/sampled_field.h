@@ -48,7 +48,26 @@ class SampledField {
     virtual void attributes(const PointSpans& points, std::span<const std::span<double>> out);
     /// out[b] = the signs that F may take in the closed box b.
     virtual void ranges(std::span<const Box3> boxes, std::span<SignRange> out) = 0;
+    /// True if narrow() can gain something. A field that cannot is evaluated whole everywhere, and its ranges
+    /// are dear (a loop that depends on the point): then samples are the better way to look for its surface.
+    virtual bool can_narrow() const { return false; }
+    /// ranges(), and what stands for F in the boxes where its sign is open: parts[b] has the sign of F at
+    /// every point of box b, is undefined where F is, and has the gradient of F where F = 0; its other values
+    /// may differ from those of F, also between boxes. Null where that would gain nothing over this object.
+    /// A part may be narrowed again. Parts serve the thread of this object and must not outlive it.
+    virtual void narrow(std::span<const Box3> boxes, std::span<SignRange> out,
+                        std::span<std::shared_ptr<SampledField>> parts);
 };
+
+/// A box and what stands for F there; null: the field that was asked first.
+struct FieldPart {
+    Box3 box;
+    std::shared_ptr<SampledField> field;
+};
+
+/// ranges[i] = the signs of F in parts[i].box, found through parts[i].field, which is then narrowed where
+/// that gains something. Parts that follow each other with one field are judged together.
+void narrow_parts(SampledField& whole, std::span<FieldPart> parts, std::span<SignRange> ranges);
 
 /// Where a coordinate of a model comes from: an axis of space or a frozen value.
 struct MappedCoordinate {

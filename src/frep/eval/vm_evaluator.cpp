@@ -1,10 +1,15 @@
 // Batches for the vm; see vm_evaluator.h. The tapes are shared by clones, the machines belong to one thread.
+// F without regions runs as clauses over wide batches (batch_vm.h); regions, attributes and intervals run on
+// the register tape (vm.h), with the same bits.
 #include "frep/eval/vm_evaluator.h"
 
 #include <algorithm>
 #include <array>
 #include <cstring>
+#include <optional>
 
+#include "frep/eval/batch_vm.h"
+#include "frep/eval/clause_tape.h"
 #include "frep/eval/float_control.h"
 #include "frep/eval/vm.h"
 
@@ -19,12 +24,16 @@ constexpr std::size_t lanes = Lanes::size;
 
 /// Memory that the registers of one engine may take.
 constexpr std::size_t memory_limit = std::size_t{2} << 30;
+/// Rows of a clause tape that take a small part of that.
+constexpr std::size_t most_rows = std::size_t{1} << 18;
 
 /// What clones share.
 struct Program {
     Field field;
-    Tape f;    ///< F alone
-    Tape all;  ///< F and the attributes, when asked for
+    Tape f;                             ///< F alone
+    Tape all;                           ///< F and the attributes, when asked for
+    std::optional<ClauseTape> clauses;  ///< F alone, where it has no region, in single assignment
+    std::optional<ClauseTape> packed;   ///< the same over fewer rows, if they are few enough to be run
     bool attributes = false;
     std::int64_t max_steps = 0;
     const Tape& values() const { return attributes ? all : f; }
@@ -50,11 +59,13 @@ class Vm final : public Evaluator {
     std::unique_ptr<Evaluator> clone() const override { return std::make_unique<Vm>(program_); }
     int coordinates() const override { return program_->field.coordinates; }
     int outputs() const override { return static_cast<int>(program_->values().outputs.size()); }
+    const ClauseTape* clauses() const override { return program_->clauses ? &*program_->clauses : nullptr; }
 
     void values(std::span<const double* const> coordinates, std::size_t count,
                 std::span<double* const> out) override {
         const FloatControl control;
         const bool alone = out.size() == 1;
+        if (alone && program_->packed) return batch_.values(*program_->packed, coordinates, count, out[0]);
         const Tape& tape = alone ? program_->f : program_->values();
         Machine<Lanes>& machine = ready(alone ? f_ : values_, tape);
         const std::size_t batch = machine.width() * lanes;
@@ -76,9 +87,11 @@ class Vm final : public Evaluator {
     void gradients(std::span<const double* const> coordinates, std::size_t count, double* values,
                    std::span<double* const> partials) override {
         const FloatControl control;
+        const auto n = static_cast<std::size_t>(program_->field.coordinates);
+        if (program_->packed)
+            return batch_.gradients(*program_->packed, coordinates, count, values, partials.first(n));
         Machine<Dual<Lanes>>& machine = ready(duals_, program_->f);
         const std::size_t batch = machine.width() * lanes;
-        const auto n = static_cast<std::size_t>(program_->field.coordinates);
         for (std::size_t start = 0; start < count; start += batch)
             for (std::size_t first = 0; first == 0 || first < n; first += 3)
                 gradient_pass(coordinates, {start, std::min(batch, count - start)}, first, values, partials);
@@ -132,6 +145,7 @@ class Vm final : public Evaluator {
     }
 
     std::shared_ptr<const Program> program_;
+    BatchVm<double> batch_;
     std::unique_ptr<Machine<Lanes>> f_;       ///< F alone
     std::unique_ptr<Machine<Lanes>> values_;  ///< F and the attributes
     std::unique_ptr<Machine<Dual<Lanes>>> duals_;
@@ -158,6 +172,12 @@ Result<std::unique_ptr<Evaluator>> make_vm(const Field& field, const EvaluatorOp
     auto f = make_tape(field, {&field.value, 1}, tape_options);
     if (!f) return f.error();
     program->f = std::move(*f);
+    program->clauses = make_clause_tape(field);
+    if (options.registers == 0 && program->clauses) {
+        program->packed = program->clauses;
+        pack_rows(*program->packed);
+        if (program->packed->rows > most_rows) program->packed.reset();
+    }
     if (options.attributes) {
         auto all = make_tape(field, field.roots(), tape_options);
         if (!all) return all.error();

@@ -15,6 +15,9 @@ namespace {
 
 constexpr NodeId no_node = std::numeric_limits<NodeId>::max();
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
+constexpr std::size_t first_slots = 64;
+/// Operands of an operation that are held without a heap.
+constexpr std::size_t few = 8;
 
 std::uint64_t mix(std::uint64_t h, std::uint64_t value) {
     h ^= value + 0x9E3779B97F4A7C15u + (h << 6) + (h >> 2);
@@ -61,7 +64,7 @@ std::uint64_t bits_of(double value) {
 
 }  // namespace
 
-Graph::Graph() : table_(1024, no_node) {}
+Graph::Graph() = default;
 Graph::~Graph() = default;
 Graph::Graph(Graph&&) noexcept = default;
 Graph& Graph::operator=(Graph&&) noexcept = default;
@@ -81,19 +84,47 @@ bool Graph::same(NodeId id, Op op, std::span<const NodeId> args, std::uint32_t p
            std::equal(args.begin(), args.end(), arguments_.begin() + n.first_argument);
 }
 
-void Graph::grow_table() {
-    std::vector<NodeId> bigger(table_.size() * 2, no_node);
-    const std::size_t mask = bigger.size() - 1;
-    for (NodeId id : table_) {
-        if (id == no_node) continue;
+void Graph::build_table(std::size_t slots) {
+    table_.assign(slots, no_node);
+    const std::size_t mask = slots - 1;
+    for (NodeId id = 0; id < nodes_.size(); ++id) {
         std::size_t slot = hash(nodes_[id].op, arguments(id), nodes_[id].payload) & mask;
-        while (bigger[slot] != no_node) slot = (slot + 1) & mask;
-        bigger[slot] = id;
+        while (table_[slot] != no_node) slot = (slot + 1) & mask;
+        table_[slot] = id;
     }
-    table_ = std::move(bigger);
+}
+
+void Graph::reserve(std::size_t nodes) {
+    nodes = std::min(nodes, node_limit);
+    nodes_.reserve(nodes);
+    arguments_.reserve(2 * nodes);
+    flags_.reserve(nodes);
+    origins_.reserve(nodes);
+    if (table_.size() < 2 * nodes) build_table(std::bit_ceil(2 * nodes));
+}
+
+double Graph::known_value(NodeId id) const {
+    if (nodes_[id].op == Op::constant) return constant_of(id);
+    return id < bound_.size() ? bound_[id] : not_a_number;
+}
+
+void Graph::know(NodeId id, double value) {
+    if (bound_.size() <= id) bound_.resize(std::size_t{id} + 1, not_a_number);
+    bound_[id] = value;
+}
+
+NodeId Graph::append(Op op, std::span<const NodeId> args, std::uint32_t payload, std::uint8_t flags) {
+    const auto id = static_cast<NodeId>(nodes_.size());
+    const auto first = static_cast<std::uint32_t>(arguments_.size());
+    nodes_.push_back({op, payload, first, static_cast<std::uint32_t>(args.size())});
+    for (const NodeId argument : args) arguments_.push_back(argument);
+    flags_.push_back(flags);
+    origins_.push_back(origin_);
+    return id;
 }
 
 NodeId Graph::insert(Op op, std::span<const NodeId> args, std::uint32_t payload, std::uint8_t flags) {
+    if (table_.size() < 2 * nodes_.size() + 2) build_table(std::bit_ceil(4 * nodes_.size() + first_slots));
     const std::size_t mask = table_.size() - 1;
     std::size_t slot = hash(op, args, payload) & mask;
     for (; table_[slot] != no_node; slot = (slot + 1) & mask)
@@ -102,16 +133,7 @@ NodeId Graph::insert(Op op, std::span<const NodeId> args, std::uint32_t payload,
         over_limit_ = true;
         return 0;
     }
-    const auto id = static_cast<NodeId>(nodes_.size());
-    const auto first = static_cast<std::uint32_t>(arguments_.size());
-    nodes_.push_back({op, payload, first, static_cast<std::uint32_t>(args.size())});
-    arguments_.insert(arguments_.end(), args.begin(), args.end());
-    flags_.push_back(flags);
-    origins_.push_back(origin_);
-    bound_.push_back(not_a_number);
-    table_[slot] = id;
-    if (nodes_.size() * 2 > table_.size()) grow_table();
-    return id;
+    return table_[slot] = append(op, args, payload, flags);
 }
 
 NodeId Graph::constant(double value) {
@@ -119,10 +141,7 @@ NodeId Graph::constant(double value) {
     const auto payload = static_cast<std::uint32_t>(constants_.size() - 1);
     const std::size_t before = nodes_.size();
     const NodeId id = insert(Op::constant, {}, payload, 0);
-    if (nodes_.size() == before)
-        constants_.pop_back();
-    else
-        bound_[id] = value;
+    if (nodes_.size() == before) constants_.pop_back();
     return id;
 }
 
@@ -133,7 +152,7 @@ NodeId Graph::coordinate(int index) {
 NodeId Graph::parameter(int index) {
     const NodeId id = insert(Op::parameter, {}, static_cast<std::uint32_t>(index), parameter_flag);
     const auto i = static_cast<std::size_t>(index);
-    if (!over_limit_) bound_[id] = i < parameters_.size() ? parameters_[i] : 0.0;
+    if (!over_limit_) know(id, i < parameters_.size() ? parameters_[i] : 0.0);
     return id;
 }
 
@@ -149,11 +168,14 @@ std::span<const double> Graph::block_of(NodeId id) const {
 }
 
 double Graph::evaluate(Op op, std::span<const NodeId> args, std::uint32_t payload) const {
-    std::vector<double> values(args.size());
-    std::transform(args.begin(), args.end(), values.begin(), [&](NodeId id) { return bound_[id]; });
+    std::array<double, few> direct;
+    std::vector<double> many(args.size() > few ? args.size() : 0);
+    const std::span<double> values =
+        args.size() > few ? std::span(many) : std::span(direct).first(args.size());
+    for (std::size_t i = 0; i < args.size(); ++i) values[i] = known_value(args[i]);
     std::span<const double> block;
     if (info(op).kind == OpKind::block && payload) block = blocks_[payload - 1];
-    return meaning<double>(op, values, block);
+    return meaning<double>(op, std::span<const double>(values), block);
 }
 
 std::optional<NodeId> Graph::simplified(Op op, std::span<const NodeId> args, std::uint32_t payload) {
@@ -220,11 +242,19 @@ NodeId Graph::make(Op op, std::span<const NodeId> given, std::uint32_t payload) 
         }
     }
     // The arguments may lie in the arena itself, which insert() may move.
-    const std::vector<NodeId> copy(args.begin(), args.end());
+    std::array<NodeId, few> direct;
+    std::vector<NodeId> many;
+    if (args.size() > few) {
+        many.assign(args.begin(), args.end());
+        args = many;
+    } else {
+        std::copy(args.begin(), args.end(), direct.begin());
+        args = std::span(direct).first(args.size());
+    }
     const std::size_t before = nodes_.size();
-    const NodeId id = insert(op, copy, payload, flags);
+    const NodeId id = insert(op, args, payload, flags);
     if (nodes_.size() > before && !(flags & point_flag) && info(op).kind != OpKind::leaf)
-        bound_[id] = evaluate(op, copy, payload);
+        know(id, evaluate(op, args, payload));
     return id;
 }
 
@@ -266,12 +296,12 @@ NodeId Graph::make_region(std::shared_ptr<const Region> region, std::span<const 
 
 std::optional<double> Graph::constant_value(NodeId id) const {
     if (flags_[id] != 0) return std::nullopt;
-    return bound_[id];
+    return known_value(id);
 }
 
 std::optional<double> Graph::bound_value(NodeId id) const {
     if (flags_[id] & point_flag) return std::nullopt;
-    return bound_[id];
+    return known_value(id);
 }
 
 void Graph::truncate(std::size_t size) {
@@ -280,14 +310,8 @@ void Graph::truncate(std::size_t size) {
     nodes_.resize(size);
     flags_.resize(size);
     origins_.resize(size);
-    bound_.resize(size);
-    std::fill(table_.begin(), table_.end(), no_node);
-    const std::size_t mask = table_.size() - 1;
-    for (NodeId id = 0; id < size; ++id) {
-        std::size_t slot = hash(nodes_[id].op, arguments(id), nodes_[id].payload) & mask;
-        while (table_[slot] != no_node) slot = (slot + 1) & mask;
-        table_[slot] = id;
-    }
+    bound_.resize(std::min(size, bound_.size()));
+    table_.clear();
     over_limit_ = false;
 }
 
@@ -312,12 +336,12 @@ Graph Graph::copy_of(const std::vector<bool>& needed, std::span<NodeId> renamed)
     Graph out;
     out.parameters_ = parameters_;
     std::vector<std::uint32_t> block_names(blocks_.size(), 0);
+    std::vector<NodeId> args;
     for (NodeId id = 0; id < nodes_.size(); ++id) {
         if (!needed[id]) continue;
         const Node& n = nodes_[id];
-        std::vector<NodeId> args(n.argument_count);
-        const auto old = arguments(id);
-        std::transform(old.begin(), old.end(), args.begin(), [&](NodeId a) { return renamed[a]; });
+        args.clear();
+        for (const NodeId argument : arguments(id)) args.push_back(renamed[argument]);
         std::uint32_t payload = n.payload;
         if (n.op == Op::constant) {
             out.constants_.push_back(constants_[payload]);
@@ -333,16 +357,44 @@ Graph Graph::copy_of(const std::vector<bool>& needed, std::span<NodeId> renamed)
             payload = name;
         }
         out.origin_ = origins_[id];
-        renamed[id] = out.insert(n.op, args, payload, flags_[id]);
-        out.bound_[renamed[id]] = bound_[id];
+        renamed[id] = out.append(n.op, args, payload, flags_[id]);  // equal nodes were one before
+        if (!depends_on_point(id) && n.op != Op::constant) out.know(renamed[id], known_value(id));
     }
     return out;
+}
+
+NodeId Graph::make_as(const Graph& from, NodeId id, std::span<const NodeId> args,
+                      std::vector<std::uint32_t>& block_names) {
+    const Node& n = from.nodes_[id];
+    switch (n.op) {
+        case Op::constant:
+            return constant(from.constants_[n.payload]);
+        case Op::parameter:
+            return parameter(static_cast<int>(n.payload));
+        case Op::coordinate:
+            return coordinate(static_cast<int>(n.payload));
+        case Op::undefined:
+            return undefined();
+        case Op::region:
+            return make_region(from.regions_[n.payload], args);
+        default:
+            break;
+    }
+    if (info(n.op).kind != OpKind::block) return make(n.op, args, n.payload);
+    if (n.payload) {
+        block_names.resize(from.blocks_.size(), 0);
+        std::uint32_t& name = block_names[n.payload - 1];
+        if (!name) name = intern_block(from.blocks_[n.payload - 1]);
+        return make(n.op, args, name);
+    }
+    const auto lead = static_cast<std::size_t>(info(n.op).arity);
+    return make_block(n.op, args.first(lead), args.subspan(lead));
 }
 
 Graph Graph::bound_copy(const std::vector<bool>& needed, std::span<const double> parameters,
                         std::span<NodeId> renamed) const {
     Graph out;
-    std::vector<std::uint32_t> block_names(blocks_.size(), 0);
+    std::vector<std::uint32_t> block_names;
     std::vector<NodeId> args;
     for (NodeId id = 0; id < nodes_.size(); ++id) {
         if (!needed[id]) continue;
@@ -350,26 +402,8 @@ Graph Graph::bound_copy(const std::vector<bool>& needed, std::span<const double>
         args.clear();
         for (const NodeId argument : arguments(id)) args.push_back(renamed[argument]);
         out.origin_ = origins_[id];
-        if (n.op == Op::constant) {
-            renamed[id] = out.constant(constants_[n.payload]);
-        } else if (n.op == Op::parameter) {
-            renamed[id] = out.constant(parameters[n.payload]);
-        } else if (n.op == Op::coordinate) {
-            renamed[id] = out.coordinate(static_cast<int>(n.payload));
-        } else if (n.op == Op::undefined) {
-            renamed[id] = out.undefined();
-        } else if (n.op == Op::region) {
-            renamed[id] = out.make_region(regions_[n.payload], args);
-        } else if (info(n.op).kind == OpKind::block && n.payload) {
-            std::uint32_t& name = block_names[n.payload - 1];
-            if (!name) name = out.intern_block(blocks_[n.payload - 1]);
-            renamed[id] = out.make(n.op, args, name);
-        } else if (info(n.op).kind == OpKind::block) {
-            const auto lead = static_cast<std::size_t>(info(n.op).arity);
-            renamed[id] = out.make_block(n.op, std::span(args).first(lead), std::span(args).subspan(lead));
-        } else {
-            renamed[id] = out.make(n.op, args, n.payload);
-        }
+        renamed[id] = n.op == Op::parameter ? out.constant(parameters[n.payload])
+                                            : out.make_as(*this, id, args, block_names);
     }
     return out;
 }

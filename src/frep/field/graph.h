@@ -58,6 +58,14 @@ class Graph {
     /// A region with its arguments (guard first); the graph shares ownership.
     NodeId make_region(std::shared_ptr<const Region> region, std::span<const NodeId> arguments);
 
+    /// Node `id` of graph `from`, made here on `arguments`: nodes of this graph, one for each of its own.
+    /// `block_names` remembers the blocks that came along: empty at first, one for all calls with `from`.
+    NodeId make_as(const Graph& from, NodeId id, std::span<const NodeId> arguments,
+                   std::vector<std::uint32_t>& block_names);
+
+    /// Room for `nodes` nodes with two arguments each, so that making them moves nothing.
+    void reserve(std::size_t nodes);
+
     std::size_t size() const { return nodes_.size(); }
     const Node& node(NodeId id) const { return nodes_[id]; }
     std::span<const NodeId> arguments(NodeId id) const {
@@ -108,19 +116,23 @@ class Graph {
     double evaluate(Op op, std::span<const NodeId> arguments, std::uint32_t payload) const;
     std::size_t hash(Op op, std::span<const NodeId> arguments, std::uint32_t payload) const;
     bool same(NodeId id, Op op, std::span<const NodeId> arguments, std::uint32_t payload) const;
-    void grow_table();
+    void build_table(std::size_t slots);
+    double known_value(NodeId id) const;
+    void know(NodeId id, double value);
+    NodeId append(Op op, std::span<const NodeId> arguments, std::uint32_t payload, std::uint8_t flags);
     std::uint32_t intern_block(std::vector<double> values);
 
     std::vector<Node> nodes_;
     std::vector<NodeId> arguments_;
     std::vector<std::uint8_t> flags_;
     std::vector<Span> origins_;
-    std::vector<double> bound_;  ///< value where the node does not depend on the point
+    std::vector<double> bound_;  ///< by node, as far as it goes: value of an operation or parameter that does
+                                 ///< not depend on the point
     std::vector<double> constants_;
     std::vector<std::vector<double>> blocks_;
     std::unordered_multimap<std::uint64_t, std::uint32_t> block_index_;  ///< hash of a block -> its number
     std::vector<std::shared_ptr<const Region>> regions_;
-    std::vector<NodeId> table_;  ///< open addressing; empty = no_node
+    std::vector<NodeId> table_;  ///< open addressing, free = no_node; made when a node is looked up
     std::vector<double> parameters_;
     Span origin_;
     bool over_limit_ = false;

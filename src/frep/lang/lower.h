@@ -13,6 +13,7 @@
 
 #include "frep/base/diagnostic.h"
 #include "frep/field/field.h"
+#include "frep/field/lift.h"
 #include "frep/lang/ast.h"
 #include "frep/lang/limits.h"
 
@@ -31,6 +32,7 @@ struct Lowered {
     std::vector<std::string> functions;  ///< library functions used, sorted
     std::size_t operations_before = 0;   ///< expressions evaluated by the lowering
     bool has_regions = false;            ///< loops that depend on the point
+    LiftReport lifted;                   ///< set operations that the text spells out; filled by Model
 };
 
 /// The field of object number `object`. Nothing when an error was added to `diagnostics`.

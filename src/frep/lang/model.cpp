@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "frep/field/value_folds.h"
 #include "frep/lang/parser.h"
 #include "frep/lang/vm_text.h"
 
@@ -62,20 +63,35 @@ std::vector<double> Model::complete_parameters(std::size_t object, std::vector<d
 }
 
 std::optional<lang::Lowered> Model::lower(std::size_t object, const std::vector<double>& parameters,
-                                          Diagnostics& diagnostics) const {
+                                          Diagnostics& diagnostics, bool lift) const {
     if (!ok()) {
         diagnostics.append(diagnostics_);
         return std::nullopt;
     }
+    std::optional<lang::Lowered> out;
     if (field_) {
-        lang::Lowered out;
-        out.field = *field_;
-        out.operations_before = field_->graph->size();
-        return out;
+        out.emplace();
+        out->field = *field_;
+        out->operations_before = field_->graph->size();
+    } else {
+        const lang::LowerOptions options{.parameters = complete_parameters(object, parameters),
+                                         .read_file = read_file_};
+        out = lang::lower(*program_, object, options, diagnostics);
     }
-    const lang::LowerOptions options{.parameters = complete_parameters(object, parameters),
-                                     .read_file = read_file_};
-    return lang::lower(*program_, object, options, diagnostics);
+    if (out && lift) out->field = lift_r_functions(out->field, &out->lifted);
+    return out;
+}
+
+void Model::advise(const lang::Lowered& lowered, Diagnostics& diagnostics) const {
+    constexpr std::size_t long_fold = 5;
+    lang::Reporter report(source_);
+    for (const ValueFold& fold : value_folds(lowered.field, long_fold))
+        report.warning(
+            lang::Code::r_fold_values, lowered.field.graph->origin(fold.node),
+            {fmt::format("{} solids are joined by set operations, and then calculated with", fold.operands),
+             "values bend here with every operand",
+             "blend or offset the parts concerned and join the results, or join by min and max"});
+    report.finish(diagnostics);
 }
 
 Result<Field> Model::field(std::string_view name, std::vector<double> parameters) const {

@@ -32,6 +32,8 @@ class Model {
     /// False when the text has errors; then there are no fields.
     bool ok() const { return !diagnostics_.has_errors(); }
     const Source& source() const { return source_; }
+    /// The language of a model that is ok().
+    ModelText text_form() const { return field_ ? ModelText::vm : ModelText::hyperfun; }
     const Diagnostics& diagnostics() const { return diagnostics_; }
     const lang::Program& program() const { return *program_; }
 
@@ -46,12 +48,16 @@ class Model {
     std::vector<double> complete_parameters(std::size_t object, std::vector<double> given) const;
 
     /// The field of an object with all that the lowering found out. Nothing when an error was added to
-    /// `diagnostics`.
+    /// `diagnostics`. With `lift`, set operations that the text spells out by sums and roots become
+    /// operations (field/lift.h).
     std::optional<lang::Lowered> lower(std::size_t object, const std::vector<double>& parameters,
-                                       Diagnostics& diagnostics) const;
+                                       Diagnostics& diagnostics, bool lift = true) const;
 
-    /// The field of an object, as find_object() finds it. Errors: invalid_argument for an unknown object,
-    /// invalid_model with the rendered diagnostics.
+    /// Adds warnings about what `lowered`, a field of this model, does slowly or not as its author may think.
+    void advise(const lang::Lowered& lowered, Diagnostics& diagnostics) const;
+
+    /// The field of an object, as find_object() finds it, lifted. Errors: invalid_argument for an unknown
+    /// object, invalid_model with the rendered diagnostics.
     Result<Field> field(std::string_view object = {}, std::vector<double> parameters = {}) const;
 
   private:

@@ -1,7 +1,8 @@
 // Implementation of vm_text.h: one pass over the text; names are looked up in an open-addressing table of
-// views into it, so that no line allocates.
+// places in it, operations by their characters as one number, so that no line allocates.
 #include "frep/lang/vm_text.h"
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <charconv>
@@ -19,9 +20,21 @@ namespace frep::lang {
 
 namespace {
 
+/// The characters of a name of at most eight, as one number.
+constexpr std::uint64_t key_of(std::string_view name) {
+    std::uint64_t key = 0;
+    for (const char c : name) key = key << 8 | static_cast<unsigned char>(c);
+    return key;
+}
+
 /// An operation of the text form; `build` makes its node from one or two operands.
 struct VmOperation {
+    constexpr VmOperation(std::string_view called, int operands,
+                          NodeId (*maker)(Graph& graph, NodeId a, NodeId b))
+        : name(called), key(key_of(called)), arity(operands), build(maker) {}
+
     std::string_view name;
+    std::uint64_t key;
     int arity;
     NodeId (*build)(Graph& graph, NodeId a, NodeId b);
 };
@@ -77,47 +90,87 @@ constexpr std::array leaf_names{std::string_view("const"), std::string_view("var
 
 bool is_blank(char c) { return c == ' ' || c == '\t'; }
 
-/// Names of results and their nodes.
+/// A word of the text with two numbers: its characters, as key_of() has them, 0 for a long word; a hash.
+struct Word {
+    std::string_view text;
+    std::uint64_t short_key = 0;
+    std::uint64_t hash = 0;
+};
+
+constexpr std::uint64_t hash_factor = 0xD6E8FEB86659FD93u;
+
+/// The word that begins at `begin`, not a blank; it ends at the next blank or at `end`.
+inline Word read_word(const char* begin, const char* end) {
+    Word word;
+    std::uint64_t key = 0;
+    const char* at = begin;
+    for (; at != end && !is_blank(*at); ++at) {
+        if (((at - begin) & 7) == 0) {
+            word.hash = (word.hash ^ key) * hash_factor;
+            key = 0;
+        }
+        key = key << 8 | static_cast<unsigned char>(*at);
+    }
+    word.hash = (word.hash ^ key) * hash_factor;
+    word.hash ^= word.hash >> 32;
+    word.text = {begin, static_cast<std::size_t>(at - begin)};
+    if (word.text.size() <= 8 && *begin != 0) word.short_key = key;
+    return word;
+}
+
+/// Names of results and their nodes. A name is a place in the text.
 class NameTable {
   public:
-    explicit NameTable(std::size_t expected) : slots_(std::bit_ceil(2 * expected + 16)) {}
+    NameTable(std::string_view text, std::size_t expected)
+        : text_(text), slots_(std::bit_ceil(2 * expected + 16)) {}
 
     /// The node of `name`; nothing when it is unknown.
-    const NodeId* find(std::string_view name) const {
+    const NodeId* find(const Word& name) const {
         const Slot& slot = slots_[place(name)];
-        return slot.name.data() == nullptr ? nullptr : &slot.node;
+        return slot.end == 0 ? nullptr : &slot.node;
     }
     /// Adds a name; false when it is there already. There is room for the expected number of names.
-    bool add(std::string_view name, NodeId node) {
+    bool add(const Word& name, NodeId node) {
         Slot& slot = slots_[place(name)];
-        if (slot.name.data() != nullptr) return false;
-        slot = {name, node};
+        if (slot.end != 0) return false;
+        const char* const end = name.text.data() + name.text.size();
+        slot = {static_cast<std::uint32_t>(end - text_.data()), node};
         return true;
     }
 
   private:
     struct Slot {
-        std::string_view name;
+        std::uint32_t end = 0;  ///< where the name ends in the text; 0: free
         NodeId node = 0;
     };
 
-    std::size_t place(std::string_view name) const {
-        std::uint64_t hash = 0xcbf29ce484222325u;  // FNV-1a
-        for (const char c : name) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
-        hash ^= hash >> 29;
-        std::size_t at = hash & (slots_.size() - 1);
-        while (slots_[at].name.data() != nullptr && slots_[at].name != name)
-            at = (at + 1) & (slots_.size() - 1);
+    std::size_t place(const Word& name) const {
+        std::size_t at = name.hash & (slots_.size() - 1);
+        while (slots_[at].end != 0 && !is_at(slots_[at].end, name.text)) at = (at + 1) & (slots_.size() - 1);
         return at;
     }
 
+    /// True when the word of the text that ends at `end` is `name`. Words that differ mostly do so near
+    /// their ends.
+    bool is_at(std::size_t end, std::string_view name) const {
+        if (name.size() > end) return false;
+        const std::size_t begin = end - name.size();
+        for (std::size_t i = name.size(); i-- > 0;)
+            if (text_[begin + i] != name[i]) return false;
+        return begin == 0 || is_blank(text_[begin - 1]) || text_[begin - 1] == '\n' ||
+               text_[begin - 1] == '\r';
+    }
+
+    std::string_view text_;
     std::vector<Slot> slots_;
 };
 
 class VmTextReader {
   public:
     VmTextReader(const Source& source, Reporter& report)
-        : source_(source), report_(report), names_(source.line_count()) {}
+        : source_(source), report_(report), names_(source.text(), source.line_count()) {
+        graph_.reserve(source.line_count());
+    }
 
     std::optional<Field> read() {
         for (std::uint32_t number = 1; number <= source_.line_count() && !report_.stopped(); ++number)
@@ -130,7 +183,9 @@ class VmTextReader {
         std::vector<NodeId> roots{graph_.make(Op::neg, {*result_})};
         if (graph_.over_limit()) return std::nullopt;
         Field field;
-        field.graph = std::make_shared<const Graph>(compact(graph_, roots));
+        const std::vector<bool> needed = reachable(graph_, roots);
+        const bool all = std::find(needed.begin(), needed.end(), false) == needed.end();
+        field.graph = std::make_shared<const Graph>(all ? std::move(graph_) : compact(graph_, roots));
         field.value = roots[0];
         field.coordinates = uses_z_ ? 3 : 2;
         return field;
@@ -139,7 +194,7 @@ class VmTextReader {
   private:
     /// A name, an operation and at most two operands; more are an error.
     struct Words {
-        std::array<std::string_view, 4> word;
+        std::array<Word, 4> word;
         std::size_t count = 0;
     };
 
@@ -153,15 +208,15 @@ class VmTextReader {
     }
 
     bool split(std::string_view line, Words& out) {
-        std::size_t i = 0;
+        const char* at = line.data();
+        const char* const end = at + line.size();
         while (true) {
-            while (i < line.size() && is_blank(line[i])) ++i;
-            if (i == line.size() || (out.count == 0 && line[i] == '#')) return true;
-            const std::size_t begin = i;
-            while (i < line.size() && !is_blank(line[i])) ++i;
-            const std::string_view word = line.substr(begin, i - begin);
+            while (at != end && is_blank(*at)) ++at;
+            if (at == end || (out.count == 0 && *at == '#')) return true;
+            const Word word = read_word(at, end);
+            at += word.text.size();
             if (out.count == out.word.size()) {
-                error(Code::vm_malformed_line, word, "an operation has at most two operands", "too much",
+                error(Code::vm_malformed_line, word.text, "an operation has at most two operands", "too much",
                       "a line is: name operation operands");
                 return false;
             }
@@ -173,7 +228,7 @@ class VmTextReader {
         Words words;
         if (!split(line, words) || words.count == 0) return;
         if (words.count == 1) {
-            error(Code::vm_malformed_line, words.word[0], "the line has a name but no operation", "",
+            error(Code::vm_malformed_line, words.word[0].text, "the line has a name but no operation", "",
                   "a line is: name operation operands");
             return;
         }
@@ -185,40 +240,42 @@ class VmTextReader {
             return;
         }
         if (!names_.add(words.word[0], *node)) {
-            error(Code::vm_name_twice, words.word[0],
-                  fmt::format("{} has a value already", Reporter::quote(words.word[0])), "defined again",
-                  "every name is assigned once");
+            const std::string_view name = words.word[0].text;
+            error(Code::vm_name_twice, name, fmt::format("{} has a value already", Reporter::quote(name)),
+                  "defined again", "every name is assigned once");
             return;
         }
         result_ = *node;
     }
 
     std::optional<NodeId> read_operation(const Words& words) {
-        const std::string_view name = words.word[1];
+        const std::string_view name = words.word[1].text;
+        const std::uint64_t key = words.word[1].short_key;
         graph_.set_origin(span_of(name));
-        if (name == "const") return read_constant(words);
-        if (name.size() == 5 && name.starts_with("var-") && name[4] >= 'x' && name[4] <= 'z') {
-            if (!has_operands(words, 0)) return std::nullopt;
-            uses_z_ = uses_z_ || name[4] == 'z';
-            return graph_.coordinate(name[4] - 'x');
-        }
+        if (key == key_of("const")) return read_constant(words);
         for (const VmOperation& operation : operations) {
-            if (operation.name != name) continue;
+            if (operation.key != key) continue;
             if (!has_operands(words, operation.arity)) return std::nullopt;
             std::array<NodeId, 2> operands{};
             for (std::size_t i = 0; i < static_cast<std::size_t>(operation.arity); ++i) {
                 const NodeId* found = names_.find(words.word[2 + i]);
-                if (!found) return refuse_operand(words.word[2 + i]);
+                if (!found) return refuse_operand(words.word[2 + i].text);
                 operands[i] = *found;
             }
             return operation.build(graph_, operands[0], operands[1]);
+        }
+        for (int axis = 0; axis < 3; ++axis) {
+            if (key != key_of(leaf_names[static_cast<std::size_t>(1 + axis)])) continue;
+            if (!has_operands(words, 0)) return std::nullopt;
+            uses_z_ = uses_z_ || axis == 2;
+            return graph_.coordinate(axis);
         }
         return refuse_operation(name);
     }
 
     std::optional<NodeId> read_constant(const Words& words) {
         if (!has_operands(words, 1)) return std::nullopt;
-        const std::string_view text = words.word[2];
+        const std::string_view text = words.word[2].text;
         double value = 0;
         const auto [end, status] = std::from_chars(text.data(), text.data() + text.size(), value);
         const bool whole = end == text.data() + text.size() && status == std::errc();
@@ -233,8 +290,9 @@ class VmTextReader {
     bool has_operands(const Words& words, int arity) {
         const auto given = static_cast<int>(words.count) - 2;
         if (given == arity) return true;
-        error(Code::vm_operand_count, words.word[1],
-              fmt::format("{} takes {} operand{}, not {}", Reporter::quote(words.word[1]), arity,
+        const std::string_view name = words.word[1].text;
+        error(Code::vm_operand_count, name,
+              fmt::format("{} takes {} operand{}, not {}", Reporter::quote(name), arity,
                           arity == 1 ? "" : "s", given),
               "", "");
         return false;

@@ -85,7 +85,7 @@ struct LaneWordsOf {
     /// True where the lowest bit is set.
     friend LaneMaskOf<E, N> mask_of_low_bit(LaneWordsOf a) {
         using Truth = typename LaneMaskOf<E, N>::Items;
-        return {each<Truth>([](auto x) { return -(x & Word{1}); }, a.items)};
+        return {each<Truth>([](auto x) { return (x & Word{1}) == Word{1}; }, a.items)};
     }
 };
 

@@ -100,14 +100,18 @@ template <class F>
 inline double patch(bool m, double r, double x, F f) {
     return __builtin_expect(m, 0) ? f(x) : r;
 }
+/// The rare part of patch(), by itself so that the usual one keeps its operands in registers.
 template <class E, int N, class F>
-inline LanesOf<E, N> patch(LaneMaskOf<E, N> m, LanesOf<E, N> r, LanesOf<E, N> x, F f) {
-    if (__builtin_expect(any(m), 0)) {
-        for (int i = 0; i < N; ++i) {
-            if (m[i]) r.set(i, f(x[i]));
-        }
+__attribute__((noinline)) LanesOf<E, N> patch_lanes(LaneMaskOf<E, N> m, LanesOf<E, N> r, LanesOf<E, N> x,
+                                                    F f) {
+    for (int i = 0; i < N; ++i) {
+        if (m[i]) r.set(i, f(x[i]));
     }
     return r;
+}
+template <class E, int N, class F>
+inline LanesOf<E, N> patch(LaneMaskOf<E, N> m, LanesOf<E, N> r, LanesOf<E, N> x, F f) {
+    return __builtin_expect(any(m), 0) ? patch_lanes(m, r, x, f) : r;
 }
 /// The same for a scalar function of two arguments.
 template <class F>
@@ -115,13 +119,16 @@ inline double patch(bool m, double r, double x, double y, F f) {
     return __builtin_expect(m, 0) ? f(x, y) : r;
 }
 template <class E, int N, class F>
-inline LanesOf<E, N> patch(LaneMaskOf<E, N> m, LanesOf<E, N> r, LanesOf<E, N> x, LanesOf<E, N> y, F f) {
-    if (__builtin_expect(any(m), 0)) {
-        for (int i = 0; i < N; ++i) {
-            if (m[i]) r.set(i, f(x[i], y[i]));
-        }
+__attribute__((noinline)) LanesOf<E, N> patch_lanes(LaneMaskOf<E, N> m, LanesOf<E, N> r, LanesOf<E, N> x,
+                                                    LanesOf<E, N> y, F f) {
+    for (int i = 0; i < N; ++i) {
+        if (m[i]) r.set(i, f(x[i], y[i]));
     }
     return r;
+}
+template <class E, int N, class F>
+inline LanesOf<E, N> patch(LaneMaskOf<E, N> m, LanesOf<E, N> r, LanesOf<E, N> x, LanesOf<E, N> y, F f) {
+    return __builtin_expect(any(m), 0) ? patch_lanes(m, r, x, y, f) : r;
 }
 
 FREP_MATH_CLOSE

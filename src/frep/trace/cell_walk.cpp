@@ -65,13 +65,16 @@ void CellWalk::advance() {
 }
 
 bool CellWalk::next(const DistanceGrid& grid, int most, Stretch& run) {
-    while (!done_ && grid.state(cell_[0], cell_[1], cell_[2]) == CellState::outside) advance();
-    if (done_) return false;
-    run.begin = at_;
-    for (int n = 0; n < most && !done_ && grid.state(cell_[0], cell_[1], cell_[2]) != CellState::outside; ++n)
-        advance();
-    run.end = std::min(at_, end_);
-    return run.begin < run.end || next(grid, most, run);
+    const auto is_empty = [&] { return grid.state(cell_[0], cell_[1], cell_[2]) == CellState::outside; };
+    while (!done_) {
+        while (!done_ && is_empty()) advance();
+        if (done_) return false;
+        run.begin = at_;
+        for (int n = 0; n < most && !done_ && !is_empty(); ++n) advance();
+        run.end = std::min(at_, end_);
+        if (run.begin < run.end) return true;
+    }
+    return false;
 }
 
 }  // namespace frep::tracing

@@ -29,10 +29,6 @@ class CellWalk {
     /// The next run of at most `most` cells that are not surely empty; false when there is none. Runs that
     /// touch share an end.
     bool next(const DistanceGrid& grid, int most, Stretch& run);
-    /// True when the next run will begin where the last one ended.
-    bool goes_on(const DistanceGrid& grid) const {
-        return !done_ && grid.state(cell_[0], cell_[1], cell_[2]) != CellState::outside;
-    }
 
   private:
     void advance();

@@ -44,27 +44,29 @@ double volume(const Box3& box) {
 
 /// The hull of the coarse cells of `clip` that may hold some of the solid.
 Hull find_hull(SampledField& field, const Box3& clip) {
-    std::vector<Box3> boxes{clip}, children;
+    std::vector<FieldPart> parts{{clip, nullptr}}, children;
     std::vector<SignRange> ranges;
     for (int level = 0; level <= coarse_levels; ++level) {
-        ranges.resize(boxes.size());
-        field.ranges(boxes, ranges);
+        ranges.resize(parts.size());
+        narrow_parts(field, parts, ranges);
         Hull hull;
         double undecided = 0;
         children.clear();
-        for (std::size_t i = 0; i < boxes.size(); ++i) {
+        for (std::size_t i = 0; i < parts.size(); ++i) {
             if (!ranges[i].can_be_inside) continue;
-            hull.box = hull.is_empty ? boxes[i] : joined(hull.box, boxes[i]);
+            const Box3& box = parts[i].box;
+            hull.box = hull.is_empty ? box : joined(hull.box, box);
             hull.is_empty = false;
-            if (ranges[i].can_be_outside || ranges[i].can_be_undefined) undecided += volume(boxes[i]);
-            for (unsigned c = 0; c < 8 && level < coarse_levels; ++c) children.push_back(octant(boxes[i], c));
+            if (ranges[i].can_be_outside || ranges[i].can_be_undefined) undecided += volume(box);
+            for (unsigned c = 0; c < 8 && level < coarse_levels; ++c)
+                children.push_back({octant(box, c), parts[i].field});
         }
         if (hull.is_empty) return hull;
         if (level == coarse_levels) {
             hull.undecided = undecided / volume(hull.box);
             return hull;
         }
-        boxes = children;
+        parts.swap(children);
     }
     return {};
 }
@@ -125,9 +127,21 @@ void DistanceGrid::place(const Box3& hull, int cells) {
         const int count = static_cast<int>(__builtin_ceil(sides[a] / step_ - 1e-6)) + 2 * margin;
         cells_[a] = (count + block - 1) / block * block;
     }
+    per_unit_ = 1 / step_;
+    // The last place before the last corner, so that there is always a next one.
+    for (std::size_t a = 0; a < 3; ++a) far_[a] = static_cast<float>(cells_[a]) * (1 - 0x1p-22F);
     const Vec3 middle = (hull.min + hull.max) * 0.5;
     origin_ = middle - Vec3{cells_[0] * 0.5, cells_[1] * 0.5, cells_[2] * 0.5} * step_;
     states_.assign(size(0) * size(1) * size(2), CellState::outside);
+}
+
+/// The part of the box of some cells that lies in the clip box; its min is above its max when there is none.
+Box3 DistanceGrid::clipped_box(std::array<int, 3> lo, int side) const {
+    const Box3 box = cell_box(lo, side);
+    return {{std::max(box.min.x, clip_.min.x), std::max(box.min.y, clip_.min.y),
+             std::max(box.min.z, clip_.min.z)},
+            {std::min(box.max.x, clip_.max.x), std::min(box.max.y, clip_.max.y),
+             std::min(box.max.z, clip_.max.z)}};
 }
 
 /// Blocks of cells, then their halves, a row of blocks a task.
@@ -136,44 +150,41 @@ void DistanceGrid::classify(FieldPool& fields, const Job& job) {
     parallel_for(job, static_cast<std::size_t>(by * bz), [&](std::size_t task) {
         const FieldPool::Lease field = fields.borrow();
         const int j0 = static_cast<int>(task) % by * block, k0 = static_cast<int>(task) / by * block;
-        std::vector<std::array<int, 3>> parts, next;
-        for (int i = 0; i < bx; ++i) parts.push_back({i * block, j0, k0});
-        std::vector<Box3> boxes;
+        std::vector<std::array<int, 3>> corners, next_corners;
+        std::vector<FieldPart> parts, next;
         std::vector<SignRange> ranges;
+        const auto add = [&](std::array<int, 3> lo, int side, const std::shared_ptr<SampledField>& of) {
+            const Box3 box = clipped_box(lo, side);
+            if (box.min.x > box.max.x || box.min.y > box.max.y || box.min.z > box.max.z) return;
+            next_corners.push_back(lo);
+            next.push_back({box, of});
+        };
+        for (int i = 0; i < bx; ++i) add({i * block, j0, k0}, block, nullptr);
         for (int side = block; side >= finest; side /= 2) {
-            boxes.clear();
-            next.clear();
-            std::erase_if(parts, [&](const std::array<int, 3>& lo) {
-                const Box3 box = cell_box(lo, side);
-                return box.min.x > clip_.max.x || box.max.x < clip_.min.x || box.min.y > clip_.max.y ||
-                       box.max.y < clip_.min.y || box.min.z > clip_.max.z || box.max.z < clip_.min.z;
-            });
-            for (const auto& lo : parts) {
-                const Box3 box = cell_box(lo, side);
-                boxes.push_back({{std::max(box.min.x, clip_.min.x), std::max(box.min.y, clip_.min.y),
-                                  std::max(box.min.z, clip_.min.z)},
-                                 {std::min(box.max.x, clip_.max.x), std::min(box.max.y, clip_.max.y),
-                                  std::min(box.max.z, clip_.max.z)}});
-            }
-            ranges.resize(boxes.size());
-            if (!boxes.empty()) field->ranges(boxes, ranges);
+            corners.swap(next_corners), parts.swap(next);
+            next_corners.clear(), next.clear();
+            ranges.resize(parts.size());
+            narrow_parts(*field, parts, ranges);
             for (std::size_t b = 0; b < parts.size(); ++b) {
-                const std::array<int, 3> lo = parts[b];
-                const CellState state = judge(ranges[b], boxes[b] == cell_box(lo, side));
+                const std::array<int, 3> lo = corners[b];
+                const CellState state = judge(ranges[b], parts[b].box == cell_box(lo, side));
                 if (state == CellState::mixed && side > finest) {
+                    const int half = side / 2;
                     for (int c = 0; c < 8; ++c)
-                        next.push_back({lo[0] + (c & 1) * side / 2, lo[1] + (c >> 1 & 1) * side / 2,
-                                        lo[2] + (c >> 2) * side / 2});
-                    continue;
+                        add({lo[0] + (c & 1) * half, lo[1] + (c >> 1 & 1) * half, lo[2] + (c >> 2) * half},
+                            half, parts[b].field);
+                } else if (state != CellState::outside) {
+                    set_states(lo, side, state);
                 }
-                if (state == CellState::outside) continue;
-                for (int k = 0; k < side; ++k)
-                    for (int j = 0; j < side; ++j)
-                        for (int i = 0; i < side; ++i) state_at(lo[0] + i, lo[1] + j, lo[2] + k) = state;
             }
-            parts = next;
         }
     });
+}
+
+void DistanceGrid::set_states(std::array<int, 3> lo, int side, CellState state) {
+    for (int k = 0; k < side; ++k)
+        for (int j = 0; j < side; ++j)
+            for (int i = 0; i < side; ++i) state_at(lo[0] + i, lo[1] + j, lo[2] + k) = state;
 }
 
 /// Cells near a change of sign between corners are mixed, those between inside corners inside.
@@ -347,27 +358,30 @@ void DistanceGrid::spread(const std::vector<std::uint8_t>& band, const Job& job)
     distance_transform(squares, {corners(0), corners(1), corners(2)}, job);
     for (std::size_t p = 0; p < squares.size(); ++p)
         if (distance_[p] > 0 && (!band[p] || distance_[p] > 1))
-            distance_[p] = std::max(std::sqrt(squares[p]), band[p] ? 1.0F : 1.0F);
+            distance_[p] = std::max(std::sqrt(squares[p]), 1.0F);
 }
 
 double DistanceGrid::distance(Vec3 p) const {
-    const double u = (p.x - origin_.x) / step_, v = (p.y - origin_.y) / step_, w = (p.z - origin_.z) / step_;
-    const double cu = std::clamp(u, 0.0, cells_[0] - 1e-9), cv = std::clamp(v, 0.0, cells_[1] - 1e-9),
-                 cw = std::clamp(w, 0.0, cells_[2] - 1e-9);
+    const auto u = static_cast<float>((p.x - origin_.x) * per_unit_),
+               v = static_cast<float>((p.y - origin_.y) * per_unit_),
+               w = static_cast<float>((p.z - origin_.z) * per_unit_);
+    const float cu = std::clamp(u, 0.0F, far_[0]), cv = std::clamp(v, 0.0F, far_[1]),
+                cw = std::clamp(w, 0.0F, far_[2]);
     const int i = static_cast<int>(cu), j = static_cast<int>(cv), k = static_cast<int>(cw);
-    const auto a = static_cast<float>(cu - i), b = static_cast<float>(cv - j), c = static_cast<float>(cw - k);
+    const float a = cu - static_cast<float>(i), b = cv - static_cast<float>(j),
+                c = cw - static_cast<float>(k);
     const std::size_t sy = corners(0), sz = corners(0) * corners(1);
     const float* d = distance_.data() + static_cast<std::size_t>(k) * sz + static_cast<std::size_t>(j) * sy +
                      static_cast<std::size_t>(i);
     const float d00 = d[0] + a * (d[1] - d[0]), d10 = d[sy] + a * (d[sy + 1] - d[sy]);
     const float d01 = d[sz] + a * (d[sz + 1] - d[sz]), d11 = d[sz + sy] + a * (d[sz + sy + 1] - d[sz + sy]);
     const float d0 = d00 + b * (d10 - d00), d1 = d01 + b * (d11 - d01);
-    const double inner = d0 + c * (d1 - d0);
-    const double du = u - cu, dv = v - cv, dw = w - cw;
-    const double beyond = du * du + dv * dv + dw * dw;
+    const float inner = d0 + c * (d1 - d0);
+    const float du = u - cu, dv = v - cv, dw = w - cw;
+    const float beyond = du * du + dv * dv + dw * dw;
     // The nearest point of the convex lattice is nearer to everything in it than p is.
-    if (beyond > 1e-12) return __builtin_sqrt(beyond + inner * inner) * step_;
-    return inner * step_;
+    if (beyond > 1e-6F) return double{__builtin_sqrtf(beyond + inner * inner)} * step_;
+    return double{inner} * step_;
 }
 
 Vec3 DistanceGrid::direction(Vec3 p) const {

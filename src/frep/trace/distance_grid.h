@@ -67,6 +67,8 @@ class DistanceGrid {
     }
     CellState& state_at(int i, int j, int k);
     Box3 cell_box(std::array<int, 3> lo, int side) const;
+    Box3 clipped_box(std::array<int, 3> lo, int side) const;
+    void set_states(std::array<int, 3> lo, int side, CellState state);
 
     void place(const Box3& hull, int cells);
     void classify(FieldPool& fields, const Job& job);
@@ -81,7 +83,8 @@ class DistanceGrid {
 
     Box3 clip_;
     Vec3 origin_;
-    double step_ = 0;
+    double step_ = 0, per_unit_ = 0;  ///< side of a cell, cells in a model unit
+    std::array<float, 3> far_{};      ///< greatest place of a look-up, in cells
     std::array<int, 3> cells_{};
     bool sampled_ = false;
     std::vector<CellState> states_;

@@ -12,7 +12,8 @@ namespace frep::tracing {
 namespace {
 
 constexpr int tile = 32;            ///< pixels a side
-constexpr std::size_t packet = 64;  ///< rays that share proofs
+constexpr int ground_square = 2;    ///< pixels
+constexpr double thinnest = 0.125;  ///< pixels: a ray misses less of the solid than that
 constexpr std::size_t edge_pixels_a_task = 64;
 
 /// Places within a pixel for edges: eight rooks, none in the row or column of another.
@@ -36,6 +37,14 @@ double dither(int x, int y) {
         value |= ((a ^ b) << 1 | b) << (2 * (2 - bit));
     }
     return (value + 0.5) / 64 - 0.5;
+}
+
+/// The bits of a number below 2^16 with a gap of one between them.
+std::uint32_t spread_bits(std::uint32_t v) {
+    v = (v | v << 8) & 0x00ff00ffU;
+    v = (v | v << 4) & 0x0f0f0f0fU;
+    v = (v | v << 2) & 0x33333333U;
+    return (v | v << 1) & 0x55555555U;
 }
 
 int cones_of(PictureQuality quality) {
@@ -84,15 +93,15 @@ std::vector<Vec3> framed_points(const DistanceGrid& grid, bool all_round) {
 }  // namespace
 
 struct Painter::Worker {
-    Worker(const DistanceGrid& grid, FieldPool& fields, double leaf, std::size_t group, double finest)
-        : field(fields.borrow()), first_hit(grid, *field, leaf, group, finest) {}
+    Worker(const DistanceGrid& grid, FieldPool& fields, double pixel)
+        : field(fields.borrow()), first_hit(grid, *field, pixel, thinnest * pixel) {}
     FieldPool::Lease field;
     FirstHit first_hit;
     std::vector<Ray> rays;
     std::vector<Hit> hits;
     std::vector<Vec2> places;
     std::vector<Sample> samples;
-    std::vector<double> x, y, z, f, gx, gy, gz;
+    RayColumns points;  ///< of the hits
     std::array<std::vector<double>, 3> colors;
     std::vector<Vec3> normals;
     std::vector<Rgb> bases;
@@ -122,11 +131,14 @@ Painter::Painter(const DistanceGrid& grid, FieldPool& fields, const SceneOptions
 Result<Image> Painter::paint(const Job& job) {
     const auto width = static_cast<std::size_t>(options_.width);
     samples_.resize(width * static_cast<std::size_t>(options_.height));
+    const auto squares = [](int pixels) { return static_cast<std::size_t>(pixels / ground_square + 2); };
+    ground_ = std::vector<std::atomic<float>>(squares(options_.width) * squares(options_.height));
+    for (std::atomic<float>& light : ground_) light.store(-1, std::memory_order_relaxed);
     const int across = (options_.width + tile - 1) / tile, down = (options_.height + tile - 1) / tile;
     parallel_for(job, static_cast<std::size_t>(across * down), [&](std::size_t task) {
         const int x0 = static_cast<int>(task) % across * tile, y0 = static_cast<int>(task) / across * tile;
-        Worker worker(grid_, fields_, 0.5 * camera_.pixel_size(), packet, 1.0 / 16);
-        // In Morton order: any quarter of a packet is a square of neighbours.
+        Worker worker(grid_, fields_, camera_.pixel_size());
+        // In Morton order: any quarter of the tile is a square of neighbours.
         for (unsigned n = 0; n < unsigned{tile * tile}; ++n) {
             unsigned x = 0, y = 0;
             for (unsigned bit = 0; bit < 5; ++bit) {
@@ -154,8 +166,8 @@ void Painter::sample(Worker& w, std::span<const Vec2> places, std::span<Sample> 
     for (const Vec2& place : places) w.rays.push_back(camera_.ray(place.x, place.y));
     w.hits.resize(places.size());
     w.first_hit.trace(w.rays, w.hits);
-    find_normals(w, w.rays, w.hits);
-    find_colors(w, w.rays, w.hits);
+    find_normals(w);
+    find_colors(w);
     for (std::size_t i = 0; i < places.size(); ++i) {
         samples[i] = {};
         if (w.hits[i].is_hit())
@@ -166,52 +178,44 @@ void Painter::sample(Worker& w, std::span<const Vec2> places, std::span<Sample> 
 }
 
 /// Outward unit normals of the hits: from the gradient; where that is nothing, from the distances.
-void Painter::find_normals(Worker& w, std::span<const Ray> rays, std::span<const Hit> hits) const {
-    w.x.clear(), w.y.clear(), w.z.clear();
-    for (std::size_t i = 0; i < hits.size(); ++i) {
-        if (!hits[i].is_hit()) continue;
-        const Vec3 p = rays[i].origin + rays[i].direction * hits[i].t;
-        w.x.push_back(p.x), w.y.push_back(p.y), w.z.push_back(p.z);
-    }
-    const std::size_t count = w.x.size();
-    w.normals.assign(hits.size(), {});
-    if (count == 0) return;
-    for (auto* v : {&w.f, &w.gx, &w.gy, &w.gz}) v->resize(count);
-    w.field->gradients({w.x, w.y, w.z}, w.f, {w.gx, w.gy, w.gz});
-    std::size_t n = 0;
-    for (std::size_t i = 0; i < hits.size(); ++i) {
-        if (!hits[i].is_hit()) continue;
-        Vec3 normal{-w.gx[n], -w.gy[n], -w.gz[n]};
+void Painter::find_normals(Worker& w) const {
+    w.normals.assign(w.hits.size(), {});
+    for (std::size_t i = 0; i < w.hits.size(); ++i) {
+        const Hit& hit = w.hits[i];
+        if (!hit.is_hit()) continue;
+        Vec3 normal = -hit.gradient;
         const double size = length(normal);
-        normal = size > 0 && size < 1e300 ? normal / size : grid_.direction({w.x[n], w.y[n], w.z[n]});
-        ++n;
-        if (hits[i].cut_by > 0) {
-            const int side = hits[i].cut_by - 1;
+        normal = size > 0 && size < 1e300 ? normal / size : grid_.direction(at(w.rays[i], hit.t));
+        if (hit.cut_by > 0) {
+            const int side = hit.cut_by - 1;
             const double s = side % 2 == 0 ? -1 : 1;
             normal = {side / 2 == 0 ? s : 0, side / 2 == 1 ? s : 0, side / 2 == 2 ? s : 0};
         }
         // A crease that is seen from behind is bent into view.
-        const double away = dot(normal, rays[i].direction);
-        if (away > 0) normal = normal - rays[i].direction * (away + 1e-3);
+        const double away = dot(normal, w.rays[i].direction);
+        if (away > 0) normal = normal - w.rays[i].direction * (away + 1e-3);
         const double bent = length(normal);
-        w.normals[i] = bent > 0 ? normal / bent : -rays[i].direction;
+        w.normals[i] = bent > 0 ? normal / bent : -w.rays[i].direction;
     }
 }
 
 /// The base colors of the hits.
-void Painter::find_colors(Worker& w, std::span<const Ray> rays, std::span<const Hit> hits) const {
-    w.bases.assign(hits.size(), stage_.base);
-    if (!material_.uses_attributes || w.field->attribute_count() < 3 || w.x.empty()) return;
-    static_cast<void>(rays);
+void Painter::find_colors(Worker& w) const {
+    w.bases.assign(w.hits.size(), stage_.base);
+    if (!material_.uses_attributes || w.field->attribute_count() < 3) return;
+    w.points.clear();
+    for (std::size_t i = 0; i < w.hits.size(); ++i)
+        if (w.hits[i].is_hit()) w.points.add(at(w.rays[i], w.hits[i].t));
+    if (w.points.size() == 0) return;
     std::array<std::span<double>, 3> out;
     for (std::size_t k = 0; k < 3; ++k) {
-        w.colors[k].resize(w.x.size());
+        w.colors[k].resize(w.points.size());
         out[k] = w.colors[k];
     }
-    w.field->attributes({w.x, w.y, w.z}, out);
+    w.field->attributes(w.points.points(), out);
     std::size_t n = 0;
-    for (std::size_t i = 0; i < hits.size(); ++i) {
-        if (!hits[i].is_hit()) continue;
+    for (std::size_t i = 0; i < w.hits.size(); ++i) {
+        if (!w.hits[i].is_hit()) continue;
         w.bases[i] = linear({w.colors[0][n], w.colors[1][n], w.colors[2][n]});
         ++n;
     }
@@ -241,21 +245,52 @@ Rgb Painter::backdrop_light(Vec2 place) const {
     return paper * (1.05 - 0.42 * corner);
 }
 
+/// Where a ray meets the table; nothing where it does not, or far from the object.
+std::optional<Vec3> Painter::on_ground(const Ray& ray) const {
+    if (!stage_.ground.is_there || ray.direction.z > -1e-6 || ray.origin.z <= stage_.ground.height) return {};
+    const Vec3 p = at(ray, (stage_.ground.height - ray.origin.z) / ray.direction.z);
+    if (grid_.distance(p) > 3 * stage_.size) return {};
+    return p;
+}
+
+/// The light that the object leaves on the table at a point of the picture. It changes slowly: it is found at
+/// the corners of squares of two pixels, each when it is first needed, and interpolated.
+double Painter::ground_light(Vec2 place) const {
+    const auto across = static_cast<std::size_t>(options_.width / ground_square + 2);
+    // tiles reach beyond the picture
+    const double u = std::min(place.x, options_.width * 1.0) / ground_square,
+                 v = std::min(place.y, options_.height * 1.0) / ground_square;
+    const auto i = static_cast<std::size_t>(u), j = static_cast<std::size_t>(v);
+    std::array<double, 4> corner{};
+    for (std::size_t c = 0; c < 4; ++c) {
+        const std::size_t x = i + (c & 1), y = j + (c >> 1);
+        std::atomic<float>& light = ground_[y * across + x];
+        float known = light.load(std::memory_order_relaxed);
+        if (known < 0) {
+            const auto p = on_ground(
+                camera_.ray(static_cast<double>(x) * ground_square, static_cast<double>(y) * ground_square));
+            known = p ? static_cast<float>(shader_.ground_light(*p)) : 1.0F;
+            light.store(known, std::memory_order_relaxed);  // the same from every thread
+        }
+        corner[c] = double{known};
+    }
+    const double a = u - static_cast<double>(i), b = v - static_cast<double>(j);
+    return mix(mix(corner[0], corner[1], a), mix(corner[2], corner[3], a), b);
+}
+
 void Painter::backdrop(const Ray& ray, Vec2 place, Sample& sample) const {
     const bool transparent = options_.backdrop == Backdrop::transparent;
     sample.light = transparent ? Rgb{} : backdrop_light(place);
     sample.alpha = transparent ? 0 : 1;
-    if (!stage_.ground.is_there || ray.direction.z > -1e-6 || ray.origin.z <= stage_.ground.height) return;
-    const double t = (stage_.ground.height - ray.origin.z) / ray.direction.z;
-    const Vec3 p = ray.origin + ray.direction * t;
-    if (grid_.distance(p) > 3 * stage_.size) return;
-    const double light = shader_.ground_light(p);
+    const auto p = on_ground(ray);
+    if (!p) return;
+    const double light = ground_light(place);
     if (transparent) {
         sample.alpha = 1 - light;
         return;
     }
     sample.light = sample.light * light;
-    const Shader::Reflection mirror = shader_.ground_reflection(p, ray.direction);
+    const Shader::Reflection mirror = shader_.ground_reflection(*p, ray.direction);
     if (mirror.strength > 0) sample.light = mix(sample.light, film(mirror.color), mirror.strength);
 }
 
@@ -270,6 +305,7 @@ bool Painter::is_edge(const Sample& a, const Sample& b) const {
     return __builtin_fabs(a.depth - b.depth) > 20 * camera_.pixel_size();
 }
 
+/// Pixels that differ from a neighbour, in Morton order of their places.
 std::vector<std::uint32_t> Painter::edges() const {
     const auto width = static_cast<std::size_t>(options_.width),
                height = static_cast<std::size_t>(options_.height);
@@ -284,18 +320,22 @@ std::vector<std::uint32_t> Painter::edges() const {
     std::vector<std::uint32_t> list;
     for (std::size_t p = 0; p < marked.size(); ++p)
         if (marked[p]) list.push_back(static_cast<std::uint32_t>(p));
+    const auto code = [&](std::uint32_t p) {
+        const auto w = static_cast<std::uint32_t>(width);
+        return spread_bits(p % w) | spread_bits(p / w) << 1;
+    };
+    std::sort(list.begin(), list.end(), [&](std::uint32_t a, std::uint32_t b) { return code(a) < code(b); });
     return list;
 }
 
-/// More samples where neighbours differ. Their rays do without proofs: what they decide is how much of a
-/// pixel each of two things covers that proved rays have found.
+/// More samples where neighbours differ.
 void Painter::smooth_edges(const Job& job) {
     const std::vector<std::uint32_t> list = edges();
     const std::size_t tasks = (list.size() + edge_pixels_a_task - 1) / edge_pixels_a_task;
     parallel_for(job, tasks, [&](std::size_t task) {
         const std::size_t first = task * edge_pixels_a_task;
         const std::size_t last = std::min(first + edge_pixels_a_task, list.size());
-        Worker worker(grid_, fields_, 0.5 * camera_.pixel_size(), rooks.size(), 0);
+        Worker worker(grid_, fields_, camera_.pixel_size());
         const auto width = static_cast<std::uint32_t>(options_.width);
         for (std::size_t e = first; e < last; ++e)
             for (const Vec2& rook : rooks)

@@ -2,7 +2,9 @@
 // tests/unit/trace/solid_picture_test.cpp.
 #pragma once
 
+#include <atomic>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -34,9 +36,11 @@ class Painter {
     struct Worker;
     /// Samples at points of the picture: x and y in pixels.
     void sample(Worker& worker, std::span<const Vec2> places, std::span<Sample> samples) const;
-    void find_normals(Worker& worker, std::span<const Ray> rays, std::span<const Hit> hits) const;
-    void find_colors(Worker& worker, std::span<const Ray> rays, std::span<const Hit> hits) const;
+    void find_normals(Worker& worker) const;
+    void find_colors(Worker& worker) const;
     Rgb hit_light(const Worker& worker, std::size_t i, const Ray& ray, const Hit& hit, Sample& sample) const;
+    std::optional<Vec3> on_ground(const Ray& ray) const;
+    double ground_light(Vec2 place) const;
     void backdrop(const Ray& ray, Vec2 place, Sample& sample) const;
     Rgb backdrop_light(Vec2 place) const;
     bool is_edge(const Sample& a, const Sample& b) const;
@@ -56,6 +60,8 @@ class Painter {
     Rgb section_base_;
     int section_side_ = 0;  ///< as Hit::cut_by
     std::vector<Sample> samples_;
+    /// Light on the table at corners of squares of pixels; negative: not known yet.
+    mutable std::vector<std::atomic<float>> ground_;
 };
 
 }  // namespace frep::tracing

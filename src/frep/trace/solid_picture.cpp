@@ -96,7 +96,7 @@ Result<SolidScene> SolidScene::make(const SampledField& field, const SceneOption
 }
 
 bool SolidScene::has_solid() const { return parts_->grid.has_solid(); }
-bool SolidScene::sampled() const { return parts_->grid.sampled(); }
+bool SolidScene::sampled() const { return parts_->grid.sampled() || !parts_->field->can_narrow(); }
 
 Result<Image> SolidScene::picture(const PictureOptions& options, const Job& job) const {
     if (const Status status = check(options); !status) return status.error();

@@ -345,3 +345,40 @@ TEST_CASE("wrong intervals are noticed, not drawn") {
     REQUIRE_FALSE(static_cast<bool>(result));
     CHECK(result.error().message.find("pruning") != std::string::npos);
 }
+
+TEST_CASE("parts of a field that stand for it in blocks keep positions, and normals to rounding") {
+    auto graph = std::make_shared<Graph>();
+    const NodeId axes[3] = {graph->coordinate(0), graph->coordinate(1), graph->coordinate(2)};
+    NodeId all = graph->constant(-1.0);
+    for (int n = 0; n < 25; ++n) {
+        NodeId ball = graph->constant(0.05 + 0.03 * test::noise(1, static_cast<std::uint64_t>(n)));
+        for (std::uint64_t a = 0; a < 3; ++a) {
+            const double c = 0.8 * test::noise(2 + a, static_cast<std::uint64_t>(n));
+            const NodeId d = graph->make(Op::sub, {axes[a], graph->constant(c)});
+            ball = graph->make(Op::sub, {ball, graph->make(Op::square, {d})});
+        }
+        all = graph->make(n % 5 == 4 ? Op::max : Op::r_or, {all, ball});
+    }
+    Field field;
+    field.graph = graph;
+    field.value = all;
+    auto evaluator = make_evaluator(field);
+    REQUIRE(evaluator);
+    const auto sampled = make_sampled_field(std::move(*evaluator), AxisMap::standard(3));
+    REQUIRE(sampled);
+    ContourOptions options{.bounds = Box3::cube(1.1), .cells = 70};
+    options.prune = false;
+    const auto plain = contour_cells(**sampled, options, Job());
+    options.prune = true;
+    const auto pruned = contour_cells(**sampled, options, Job());
+    REQUIRE(plain);
+    REQUIRE(pruned);
+    CHECK(plain->mesh.vertices.size() > 1000);
+    CHECK(plain->mesh.vertices == pruned->mesh.vertices);
+    CHECK(plain->mesh.triangles == pruned->mesh.triangles);
+    REQUIRE(plain->mesh.normals.size() == pruned->mesh.normals.size());
+    double worst = 0;
+    for (std::size_t v = 0; v < plain->mesh.normals.size(); ++v)
+        worst = std::max(worst, length(plain->mesh.normals[v] - pruned->mesh.normals[v]));
+    CHECK(worst < 1e-9);
+}

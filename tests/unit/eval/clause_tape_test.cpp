@@ -73,9 +73,9 @@ TEST_CASE("a coordinate, a constant and a shift by an iso value as roots") {
     field.value = x;
     const double point[3] = {0.75, 0, 0};
     CHECK(run(*make_clause_tape(field), point) == 0.75);
-    const auto shifted = make_clause_tape(field, 0.25);
-    CHECK(run(*shifted, point) == 0.5);
-    CHECK(cost_of(*shifted) == 1);
+    const ClauseTape moved = shifted(*make_clause_tape(field), 0.25);
+    CHECK(run(moved, point) == 0.5);
+    CHECK(cost_of(moved) == 1);
     field.value = half;
     CHECK(run(*make_clause_tape(field), point) == 0.5);
 }

@@ -34,7 +34,7 @@ std::string generated(std::string_view code) {
 TEST_CASE("every example of the table is right") {
     for (const CodeInfo& row : diagnostic_table()) {
         CAPTURE(row.code);
-        if (row.proof == Proof::lowering || row.code >= "HF200") continue;
+        if (row.proof == Proof::lowering || row.proof == Proof::advice || row.code >= "HF200") continue;
         const std::string wrong =
             row.proof == Proof::generated ? generated(row.code) : std::string(row.wrong);
         const Parse found = parse_text(wrong);
@@ -42,6 +42,27 @@ TEST_CASE("every example of the table is right") {
         for (const Diagnostic& d : found.diagnostics.list())
             if (d.code == row.code) CHECK(d.severity == row.severity);
         CHECK(findings(row.right) == std::vector<std::string>{});
+    }
+}
+
+TEST_CASE("examples of advice are right") {
+    for (const CodeInfo& row : diagnostic_table()) {
+        CAPTURE(row.code);
+        if (row.proof != Proof::advice) continue;
+        const auto advice = [](std::string_view text) {
+            const Model model(Source("example.hf", text));
+            Diagnostics found;
+            const auto lowered = model.lower(*model.find_object({}), {}, found);
+            REQUIRE(lowered);
+            CHECK(found.list().empty());
+            model.advise(*lowered, found);
+            return found;
+        };
+        const Diagnostics found = advice(row.wrong);
+        REQUIRE(has_code(found, row.code));
+        CHECK(found.list()[0].severity == row.severity);
+        CHECK(found.list()[0].span.end > 0);
+        CHECK(advice(row.right).list().empty());
     }
 }
 

@@ -84,6 +84,39 @@ double interpreted(const std::string& text, double x, double y, double z) {
     return last;
 }
 
+/// Where the models of the shared benchmarks are; empty, and a line that says so, without them.
+std::filesystem::path benchmark_models() {
+    const char* shared = std::getenv("FREP_SHARED");
+    std::filesystem::path folder = std::filesystem::path(shared ? shared : "") / "bench/models";
+    if (shared && std::filesystem::is_directory(folder)) return folder;
+    std::printf("skipped: 1 (no benchmark models)\n");
+    return {};
+}
+
+/// Numbers in -1..1.
+struct Random {
+    std::uint32_t seed = 12345;
+    double operator()() {
+        seed = seed * 1664525u + 1013904223u;
+        return static_cast<double>(seed >> 8) / 8388608.0 - 1;
+    }
+};
+
+/// The field of a `.vm` file, with its set operations lifted or as sums.
+lang::Lowered lowered(const std::filesystem::path& path, bool lift) {
+    const Model model(Source("test.vm", read_file(path.string())), {}, ModelText::vm);
+    Diagnostics found;
+    auto out = model.lower(0, {}, found, lift);
+    REQUIRE(out);
+    return *out;
+}
+
+std::size_t count_of(const Field& field, Op op) {
+    std::size_t count = 0;
+    for (NodeId id = 0; id < field.graph->size(); ++id) count += field.graph->node(id).op == op;
+    return count;
+}
+
 }  // namespace
 
 TEST_CASE("the field is the negation of the last line") {
@@ -155,25 +188,43 @@ TEST_CASE("mistakes have a place") {
 }
 
 TEST_CASE("the models of the shared benchmarks mean what they say") {
-    const char* shared = std::getenv("FREP_SHARED");
-    const std::filesystem::path folder = std::filesystem::path(shared ? shared : "") / "bench/models";
-    if (!shared || !std::filesystem::is_directory(folder)) {
-        std::printf("skipped: 1 (no benchmark models)\n");
-        return;
-    }
+    const std::filesystem::path folder = benchmark_models();
+    if (folder.empty()) return;
     for (const auto& entry : std::filesystem::directory_iterator(folder)) {
         if (entry.path().extension() != ".vm") continue;
         CAPTURE(entry.path().filename().string());
         const std::string text = read_file(entry.path().string());
         const Field field = field_of(text);
-        std::uint32_t seed = 12345;
-        const auto random = [&seed] {
-            seed = seed * 1664525u + 1013904223u;
-            return static_cast<double>(seed >> 8) / 8388608.0 - 1;
-        };
+        Random random;
         for (int i = 0; i < 20; ++i) {
             const double x = random(), y = random(), z = random();
             CHECK(value_at(field, x, y, z) == doctest::Approx(-interpreted(text, x, y, z)).epsilon(1e-9));
+        }
+    }
+}
+
+TEST_CASE("the R-functions of the shared benchmarks lift completely") {
+    const std::filesystem::path folder = benchmark_models();
+    if (folder.empty()) return;
+    for (const auto& [sums, min_max] :
+         {std::pair("rcsg100.vm", "csg100.vm"), {"runion1000.vm", "union1000.vm"}}) {
+        CAPTURE(sums);
+        const lang::Lowered plain = lowered(folder / sums, false), lifted = lowered(folder / sums, true);
+        const Field twin = lowered(folder / min_max, true).field;
+        CHECK(plain.lifted.total() == 0);
+        CHECK(count_of(plain.field, Op::r_or) + count_of(plain.field, Op::r_and) == 0);
+        // One operation for each minimum and maximum of the twin, and no other roots than its own.
+        const std::size_t expected = count_of(twin, Op::min) + count_of(twin, Op::max);
+        CHECK(lifted.lifted.r_functions == expected);
+        CHECK(count_of(lifted.field, Op::r_or) + count_of(lifted.field, Op::r_and) == expected);
+        CHECK(count_of(lifted.field, Op::sqrt) == count_of(twin, Op::sqrt));
+        Random random;
+        for (int i = 0; i < 400; ++i) {
+            const double x = random(), y = random(), z = random();
+            const double a = value_at(plain.field, x, y, z), b = value_at(lifted.field, x, y, z);
+            CHECK(b == doctest::Approx(a).epsilon(1e-9));
+            if (std::fabs(a) > 1e-12) CHECK((a >= 0) == (b >= 0));
+            CHECK((b >= 0) == (value_at(twin, x, y, z) >= 0));
         }
     }
 }

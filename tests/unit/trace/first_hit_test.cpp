@@ -42,7 +42,7 @@ std::vector<Hit> traced(const SampledField& field, const Box3& box, const std::v
     if (sampled) *sampled = grid->sampled();
     const FieldPool::Lease lease = pool.borrow();
     std::vector<Hit> hits(rays.size());
-    FirstHit(*grid, *lease, 1e-3).trace(rays, hits);
+    FirstHit(*grid, *lease, 0.01, 1e-3).trace(rays, hits);
     return hits;
 }
 
@@ -127,9 +127,13 @@ TEST_CASE("neighbours that share proofs have the hits of single rays") {
     REQUIRE(grid);
     const FieldPool::Lease lease = pool.borrow();
     std::vector<Hit> alone(rays.size()), together(rays.size());
-    FirstHit(*grid, *lease, 1e-3, 1).trace(rays, alone);
-    FirstHit(*grid, *lease, 1e-3, 64).trace(rays, together);
-    for (std::size_t i = 0; i < rays.size(); ++i) CHECK(alone[i].t == together[i].t);
+    FirstHit first_hit(*grid, *lease, 0.1, 1e-3);
+    for (std::size_t i = 0; i < rays.size(); ++i) first_hit.trace({&rays[i], 1}, {&alone[i], 1});
+    first_hit.trace(rays, together);
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+        CHECK(alone[i].is_hit() == together[i].is_hit());
+        if (alone[i].is_hit()) CHECK(std::fabs(alone[i].t - together[i].t) < 1e-8);
+    }
 }
 
 TEST_CASE("distances of a ball, inside the lattice and beyond") {

@@ -2,8 +2,6 @@
 // Tested by tests/unit/eval/conformance_test.cpp.
 #pragma once
 
-#include <limits>
-
 #include "frep/field/kernels/data.h"
 #include "frep/math/number.h"
 
@@ -70,7 +68,7 @@ inline constexpr double truth_tolerance = 1e-6;
 
 template <class T>
 T undefined_value() {
-    return math::constant<T>(std::numeric_limits<double>::quiet_NaN());
+    return math::constant<T>(math::quiet_nan);
 }
 
 /// 1 or 0 by the mask; undefined where `operands` is (operands: any expression that is NaN when one of them

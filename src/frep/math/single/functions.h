@@ -5,5 +5,6 @@
 #pragma once
 
 #include "frep/math/single/exp_log.h"
+#include "frep/math/single/inverse_trig.h"
 #include "frep/math/single/rfunctions.h"
 #include "frep/math/single/trig.h"

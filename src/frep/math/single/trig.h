@@ -30,8 +30,7 @@ inline T sin_of_angle(T x, std::uint32_t turn) {
     const T z = r * r;
     // r + r z S(z) + rest, or 1 + z C(z) - r rest
     const auto pick = [&](int i) { return select(odd, T(c::cos_tail[i]), T(c::sin_tail[i])); };
-    const T w = z * z;
-    const T tail = (pick(0) + pick(1) * z) + (pick(2) + pick(3) * z) * w;
+    const T tail = pick(0) + z * (pick(1) + z * (pick(2) + z * pick(3)));
     const T lead = select(odd, T(1.0), r), factor = select(odd, z, z * r);
     const T carried = rest * select(odd, -r, T(1.0));
     const T value = lead + (factor * tail + carried);

@@ -1,0 +1,310 @@
+// Implementation of dual_block.h: samples and signs, crossings, normals and attributes there, and which cubes
+// of cells may merge. The test for those is that of Ju, Losasso, Schaefer and Warren 2002, 5.2: all eight
+// parts have one sheet at most, and so has the cube; the sign in the middle of each edge, of each face and of
+// the cube is that of a corner of this edge, this face, the cube.
+#include "frep/contour/dual_block.h"
+
+#include <limits>
+
+#include "frep/contour/block.h"
+#include "frep/contour/cell.h"
+#include "frep/contour/dual_cell.h"
+
+namespace frep::contouring {
+
+namespace {
+
+constexpr double outside_by_decree = -std::numeric_limits<double>::infinity();
+
+void set_component(Vec3& v, std::size_t axis, double value) {
+    (axis == 0 ? v.x : axis == 1 ? v.y : v.z) = value;
+}
+
+bool is_homogeneous(unsigned signs) { return signs == 0 || signs == 255; }
+
+/// Calls visit(l) for all l with begin <= l < end, x fastest.
+template <class Visit>
+void for_each(const Lattice& begin, const Lattice& end, Visit visit) {
+    Lattice l{};
+    for (l[2] = begin[2]; l[2] < end[2]; ++l[2]) {
+        for (l[1] = begin[1]; l[1] < end[1]; ++l[1]) {
+            for (l[0] = begin[0]; l[0] < end[0]; ++l[0]) visit(l);
+        }
+    }
+}
+
+}  // namespace
+
+bool DualSampler::is_layer(const Lattice& l) const {
+    for (std::size_t a = 0; a < 3; ++a) {
+        const std::uint32_t e = lo_[a] + l[a];
+        if (e == 0 || e > grid_.cells[a] + 1) return true;
+    }
+    return false;
+}
+
+Vec3 DualSampler::point(const Lattice& l) const {
+    return grid_.point(lo_[0] + l[0] - 1, lo_[1] + l[1] - 1, lo_[2] + l[2] - 1);
+}
+
+void DualSampler::place(std::uint64_t code) {
+    const Lattice block = morton_decode(code);
+    is_at_side_ = false;
+    for (std::size_t a = 0; a < 3; ++a) {
+        lo_[a] = block[a] * block_side;
+        first_[a] = lo_[a] == 0 ? 1 : 0;
+        const std::uint32_t end = grid_.cells[a] + 1 - lo_[a];  // the box's last sample
+        last_[a] = end < block_side ? end : block_side;
+        is_at_side_ = is_at_side_ || lo_[a] == 0 || end <= block_side;
+    }
+}
+
+std::unique_ptr<DualBlock> DualSampler::sample(std::uint64_t code, SampledField& part, SampledField& field) {
+    place(code);
+    if (!take_values(code, part)) return nullptr;
+    auto block = std::make_unique<DualBlock>();
+    block->code = code;
+    collect_edges(*block);
+    collect_cells(*block);
+    if (block->roots.empty() && block->cells.empty()) return nullptr;
+    finder_.find(part, crossed_, found_);
+    for (std::size_t i = 0; i < found_.size(); ++i) block->roots[crossed_at_[i]] = found_[i].inside;
+    take_normals(*block, part);
+    take_attributes(*block, field);
+    if (options_.tolerance > 0) find_mergeable(*block);
+    return block;
+}
+
+/// The values at the corners of the block's cells. False when there is no surface among them.
+bool DualSampler::take_values(std::uint64_t code, SampledField& part) {
+    for (std::vector<double>* column : {&x_, &y_, &z_}) column->clear();
+    const Lattice end{last_[0] + 1, last_[1] + 1, last_[2] + 1};
+    for (std::uint32_t z = first_[2]; z < end[2]; ++z) {
+        const double pz = grid_.coordinate(2, lo_[2] + z - 1);
+        for (std::uint32_t y = first_[1]; y < end[1]; ++y) {
+            const double py = grid_.coordinate(1, lo_[1] + y - 1);
+            for (std::uint32_t x = first_[0]; x < end[0]; ++x) {
+                x_.push_back(grid_.coordinate(0, lo_[0] + x - 1));
+                y_.push_back(py);
+                z_.push_back(pz);
+            }
+        }
+    }
+    out_.resize(x_.size());
+    part.values({x_, y_, z_}, out_);
+    if (x_.size() < size) values_.fill(outside_by_decree);
+    const double* next = out_.data();
+    for_each(first_, end, [&](const Lattice& l) { values_[index(l)] = *next++; });
+    std::size_t inside = 0;
+    bool is_defined = true;
+    for (std::size_t i = 0; i < size; ++i) {
+        inside_[i] = values_[i] >= 0 ? 1 : 0;
+        inside += inside_[i];
+        is_defined = is_defined && values_[i] == values_[i];
+    }
+    if (!is_defined || (is_at_side_ && inside > 0)) note_samples(code);
+    return inside > 0 && (inside < x_.size() || (options_.cap && inside < size));
+}
+
+/// Counts the undefined samples of this block's own and notes inside samples at the sides of the box.
+void DualSampler::note_samples(std::uint64_t code) {
+    for_each(first_, {last_[0] + 1, last_[1] + 1, last_[2] + 1}, [&](const Lattice& l) {
+        const double value = values_[index(l)];
+        const bool own = l[0] < block_side && l[1] < block_side && l[2] < block_side;
+        if (value != value && own) undefined.add(1, code, local_number(l));
+        if (!(value >= 0)) return;
+        for (std::size_t a = 0; a < 3; ++a) {
+            const std::uint32_t i = lo_[a] + l[a] - 1;
+            if (i == 0) touches[2 * a] = true;
+            if (i == grid_.cells[a]) touches[2 * a + 1] = true;
+        }
+    });
+}
+
+/// The own edges with different signs at their ends, in ascending order; with the layer only under the cap.
+void DualSampler::collect_edges(DualBlock& block) {
+    crossed_.clear();
+    crossed_at_.clear();
+    for_each({0, 0, 0}, {block_side, block_side, block_side}, [&](const Lattice& l) {
+        const std::uint32_t at = index(l);
+        for (std::size_t a = 0; a < 3; ++a) {
+            if (inside_[at] != inside_[at + stride[a]]) add_edge(block, l, a);
+        }
+    });
+    block.edges.count();
+}
+
+void DualSampler::add_edge(DualBlock& block, const Lattice& lower, std::size_t axis) {
+    Lattice upper = lower;
+    ++upper[axis];
+    const bool lower_is_inside = inside_[index(lower)] != 0;
+    if (is_at_side_ && (is_layer(lower) || is_layer(upper))) {
+        // The cap: the crossing is the inside sample, its normal that of the side.
+        if (!options_.cap) return;
+        block.edges.insert(edge_number(lower, axis));
+        block.roots.push_back(lower_is_inside ? 0 : 1);
+        Vec3 normal{0, 0, 0};
+        set_component(normal, axis, lower_is_inside ? 1 : -1);
+        block.normals.push_back(normal);
+        return;
+    }
+    CrossedEdge edge;
+    edge.lower = point(lower);
+    edge.axis = static_cast<std::uint8_t>(axis);
+    const std::uint32_t i = lo_[axis] + lower[axis] - 1;
+    edge.length =
+        grid_.coordinate(static_cast<int>(axis), i + 1) - grid_.coordinate(static_cast<int>(axis), i);
+    edge.lower_value = values_[index(lower)];
+    edge.upper_value = values_[index(upper)];
+    crossed_.push_back(edge);
+    crossed_at_.push_back(static_cast<std::uint32_t>(block.roots.size()));
+    block.edges.insert(edge_number(lower, axis));
+    block.roots.push_back(0);
+    block.normals.push_back({0, 0, 0});
+}
+
+/// Normals from the gradients at the inside ends. A wall, where F ends without a zero, has nothing to do with
+/// the gradient; its normals stay unknown.
+void DualSampler::take_normals(DualBlock& block, SampledField& part) {
+    const std::size_t count = crossed_.size();
+    for (std::vector<double>* v : {&x_, &y_, &z_, &out_, &gx_, &gy_, &gz_}) v->resize(count);
+    for (std::size_t i = 0; i < count; ++i) {
+        const Vec3 p = point_on(crossed_[i], found_[i].inside);
+        x_[i] = p.x;
+        y_[i] = p.y;
+        z_[i] = p.z;
+    }
+    if (count == 0) return;
+    part.gradients({x_, y_, z_}, out_, {gx_, gy_, gz_});
+    for (std::size_t i = 0; i < count; ++i) {
+        if (found_[i].is_wall) continue;
+        block.normals[crossed_at_[i]] = outward_normal({gx_[i], gy_[i], gz_[i]});
+    }
+}
+
+/// Attributes at the inside ends, where F >= 0: library functions that set colors write only there.
+void DualSampler::take_attributes(DualBlock& block, SampledField& field) {
+    const std::size_t wanted = options_.attributes, count = block.roots.size();
+    if (wanted == 0 || count == 0) return;
+    x_.clear();
+    y_.clear();
+    z_.clear();
+    std::size_t next = 0;
+    for_each({0, 0, 0}, {block_side, block_side, block_side}, [&](const Lattice& l) {
+        for (std::size_t a = 0; a < 3; ++a) {
+            if (!block.edges.has(edge_number(l, a))) continue;
+            Vec3 p;
+            if (next < crossed_at_.size() && crossed_at_[next] == x_.size()) {
+                p = point_on(crossed_[next], found_[next].inside);
+                ++next;
+            } else {
+                Lattice at = l;
+                at[a] += inside_[index(l)] ? 0u : 1u;
+                p = point(at);
+            }
+            x_.push_back(p.x);
+            y_.push_back(p.y);
+            z_.push_back(p.z);
+        }
+    });
+    columns_.resize(wanted * count);
+    std::vector<std::span<double>> columns;
+    for (std::size_t k = 0; k < wanted; ++k) columns.emplace_back(&columns_[k * count], count);
+    field.attributes({x_, y_, z_}, columns);
+    block.attributes.resize(wanted * count);
+    for (std::size_t i = 0; i < count; ++i) {
+        for (std::size_t k = 0; k < wanted; ++k) block.attributes[i * wanted + k] = columns[k][i];
+    }
+}
+
+unsigned DualSampler::signs_at(const Lattice& lower, std::uint32_t step) const {
+    unsigned signs = 0;
+    for (unsigned c = 0; c < 8; ++c) {
+        const auto& o = corner_offsets[c];
+        const std::uint32_t at =
+            index({lower[0] + o[0] * step, lower[1] + o[1] * step, lower[2] + o[2] * step});
+        signs |= static_cast<unsigned>(inside_[at]) << c;
+    }
+    return signs;
+}
+
+/// The own cells that the surface crosses; those of the layer only under the cap.
+void DualSampler::collect_cells(DualBlock& block) {
+    Lattice begin{}, end{block_side, block_side, block_side};
+    for (std::size_t a = 0; a < 3 && !options_.cap; ++a) {
+        begin[a] = first_[a];
+        end[a] = last_[a] < block_side ? last_[a] : block_side;
+    }
+    Lattice l{};
+    for (l[2] = begin[2]; l[2] < end[2]; ++l[2]) {
+        for (l[1] = begin[1]; l[1] < end[1]; ++l[1]) {
+            // The four signs across the row at x: 0 all outside, 4 all inside.
+            const std::uint8_t* row = &inside_[index({0, l[1], l[2]})];
+            const auto across = [row](std::uint32_t x) {
+                return row[x] + row[x + stride[1]] + row[x + stride[2]] + row[x + stride[1] + stride[2]];
+            };
+            int here = across(begin[0]);
+            for (l[0] = begin[0]; l[0] < end[0]; ++l[0]) {
+                const int next = across(l[0] + 1);
+                const int sum = here + next;
+                here = next;
+                if (sum == 0 || sum == 8) continue;
+                DualCell cell;
+                cell.number = static_cast<std::uint16_t>(local_number(l));
+                cell.signs = static_cast<std::uint8_t>(signs_at(l, 1));
+                block.cell_set.insert(cell.number);
+                block.cells.push_back(cell);
+            }
+        }
+    }
+    block.cell_set.count();
+}
+
+/// Whether the 27 samples at distances `step` pass the test of the header comment.
+bool DualSampler::keeps_topology(const Lattice& lower, std::uint32_t step) const {
+    const unsigned corners = signs_at(lower, 2 * step);
+    if (!is_homogeneous(corners) && !cell_pattern(corners).is_simple()) return false;
+    for (std::uint32_t code = 0; code < 27; ++code) {
+        const std::array<std::uint32_t, 3> digit{code % 3, code / 3 % 3, code / 9};
+        const auto sign = [&](unsigned bits) {
+            Lattice l = lower;
+            for (std::size_t a = 0; a < 3; ++a) {
+                const std::uint32_t d = digit[a] == 1 ? 2 * (bits >> a & 1u) : digit[a];
+                l[a] += d * step;
+            }
+            return inside_[index(l)];
+        };
+        const std::uint8_t here = inside_[index(
+            {lower[0] + digit[0] * step, lower[1] + digit[1] * step, lower[2] + digit[2] * step})];
+        bool agrees = false;
+        for (unsigned bits = 0; bits < 8 && !agrees; ++bits) agrees = sign(bits) == here;
+        if (!agrees) return false;
+    }
+    return true;
+}
+
+void DualSampler::find_mergeable(DualBlock& block) {
+    for (std::uint32_t k = 0; k < 3; ++k) {
+        const std::uint32_t half = 1u << k, count = block_side / (2 * half);
+        for_each({0, 0, 0}, {count, count, count}, [&](const Lattice& cube) {
+            const Lattice lower{cube[0] * 2 * half, cube[1] * 2 * half, cube[2] * 2 * half};
+            for (std::size_t a = 0; a < 3 && !options_.cap; ++a) {
+                if (lower[a] < first_[a] || lower[a] + 2 * half > last_[a]) return;
+            }
+            for (std::uint32_t c = 0; c < 8; ++c) {
+                const Lattice part{cube[0] * 2 + (c & 1), cube[1] * 2 + (c >> 1 & 1), cube[2] * 2 + (c >> 2)};
+                if (k == 0) {
+                    const unsigned signs = signs_at(part, 1);
+                    if (!is_homogeneous(signs) && !cell_pattern(signs).is_simple()) return;
+                } else {
+                    const std::uint32_t i = (part[2] * 2 * count + part[1]) * 2 * count + part[0];
+                    if (!(block.mergeable[k - 1] >> i & 1)) return;
+                }
+            }
+            if (!keeps_topology(lower, half)) return;
+            block.mergeable[k] |= std::uint64_t{1} << ((cube[2] * count + cube[1]) * count + cube[0]);
+        });
+    }
+}
+
+}  // namespace frep::contouring

@@ -1,0 +1,40 @@
+// What stands for a field in a part of space: its tape pruned for a box (prune.h), run in batches
+// (batch_vm.h). Tested by tests/unit/eval/narrowed_field_test.cpp.
+#pragma once
+
+#include <memory>
+#include <span>
+
+#include "frep/eval/clause_tape.h"
+#include "frep/eval/sampled_field.h"
+
+namespace frep {
+
+/// True where ranges cost much more than values do, so that looking at samples finds a surface sooner than
+/// proofs do: sums over hundreds of skeletons or samples, whose ranges are found term by term.
+bool has_dear_ranges(const ClauseTape& tape);
+
+/// Engines and workspace that a field and all its parts share: they serve one thread.
+class Narrowing {
+  public:
+    explicit Narrowing(AxisMap map);
+    ~Narrowing();
+    Narrowing(const Narrowing&) = delete;
+    Narrowing& operator=(const Narrowing&) = delete;
+
+    /// As SampledField::narrow(), for the field that `tape` (in single assignment) computes in space. The
+    /// parts keep what they need of `self` alive.
+    static void narrow(const std::shared_ptr<Narrowing>& self, const ClauseTape& tape,
+                       std::span<const Box3> boxes, std::span<SignRange> out,
+                       std::span<std::shared_ptr<SampledField>> parts);
+
+  private:
+    friend class NarrowedField;
+    struct Engines;
+    void ranges(const ClauseTape& tape, std::span<const Box3> boxes, std::span<SignRange> out);
+    void load_boxes(std::span<const Box3> boxes);
+
+    std::unique_ptr<Engines> engines_;
+};
+
+}  // namespace frep

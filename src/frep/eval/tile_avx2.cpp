@@ -1,0 +1,8 @@
+// The passes of the pruner compiled for avx2 (cmake/isa.cmake); see tile_impl.h.
+#include "frep/eval/tile_impl.h"
+
+namespace frep::tile::avx2 {
+
+const Kernels& kernels() { return table; }
+
+}  // namespace frep::tile::avx2

@@ -1,0 +1,106 @@
+// Tests of contour/edge_roots.h: the crossing is bracketed to root_width, in few steps where F is smooth and
+// never in more than bisection and two.
+#include "frep/contour/edge_roots.h"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+#include "unit/contour/test_fields.h"
+
+using namespace frep;
+using namespace frep::contouring;
+using test::FunctionField;
+using test::infinity;
+using test::undefined;
+
+namespace {
+
+struct Search {
+    EdgeRoot root;
+    int evaluations = 0;
+};
+
+/// Along x from 2 to 6.
+Search search(const std::function<double(double)>& f) {
+    Search result;
+    FunctionField field([&](double x, double, double) {
+        ++result.evaluations;
+        return f(x);
+    });
+    CrossedEdge edge;
+    edge.lower = {2, -1, 7};
+    edge.length = 4;
+    edge.axis = 0;
+    edge.lower_value = f(2);
+    edge.upper_value = f(6);
+    std::vector<EdgeRoot> roots;
+    EdgeRoots().find(field, {edge}, roots);
+    REQUIRE(roots.size() == 1);
+    result.root = roots[0];
+    CHECK(f(2 + 4 * roots[0].inside) >= 0);
+    CHECK(!(f(2 + 4 * roots[0].outside) >= 0));
+    CHECK(std::abs(roots[0].inside - roots[0].outside) <= root_width);
+    CHECK(result.evaluations <= 32);
+    return result;
+}
+
+}  // namespace
+
+TEST_CASE("smooth functions take few steps") {
+    CHECK(search([](double x) { return x - 3.7; }).evaluations <= 6);
+    CHECK(search([](double x) { return 3.7 - x; }).evaluations <= 6);
+    CHECK(search([](double x) { return 25 - x * x; }).evaluations <= 8);
+    CHECK(search([](double x) { return x * x - 7; }).evaluations <= 10);
+    CHECK(search([](double x) { return 1e200 * (x - 5.9999); }).evaluations <= 8);
+    CHECK(search([](double x) { return 1e-250 * (2.5 - x); }).evaluations <= 8);
+    CHECK(std::abs(search([](double x) { return x - 3.7; }).root.inside - 0.425) <= root_width);
+}
+
+TEST_CASE("crossings at the very ends") {
+    CHECK(search([](double x) { return 2 - x; }).root.inside == 0);
+    CHECK(search([](double x) { return x - 6; }).root.inside == 1);
+    CHECK(search([](double x) { return 2 - x; }).evaluations <= 6);
+}
+
+TEST_CASE("hard functions take no more than bisection and two") {
+    search([](double x) { return x < 3.1 ? 1.0 : -1e-9; });
+    search([](double x) { return std::pow(x - 4.3, 9); });
+    search([](double x) { return std::cbrt(x - 4.3); });
+    search([](double x) { return x < 4.5 ? infinity : -infinity; });
+    search([](double x) { return x < 4.5 ? 0.0 : -1.0; });
+    search([](double x) { return 1 / (x - 3.3); });
+    search([](double x) { return std::sin(40 * x) + (3.5 - x); });
+}
+
+TEST_CASE("a wall, where F ends") {
+    CHECK(search([](double x) { return x < 5 ? 1.0 : undefined; }).root.is_wall);
+    CHECK(search([](double x) { return x < 5 ? undefined : 1.0; }).root.is_wall);
+    CHECK(!search([](double x) { return 5 - x; }).root.is_wall);
+    CHECK(!search([](double x) { return x < 3 ? 3 - x : x < 4 ? -1.0 : undefined; }).root.is_wall);
+}
+
+TEST_CASE("an edge's result does not depend on the others") {
+    const FunctionField f(
+        [](double x, double y, double z) { return std::sin(3 * x + y) + 0.3 * z - 0.1 * x * y; });
+    FunctionField field = f;
+    std::vector<CrossedEdge> edges;
+    for (std::uint64_t i = 0; edges.size() < 100; ++i) {
+        CrossedEdge e;
+        e.lower = {test::noise(1, i), test::noise(2, i), test::noise(3, i)};
+        e.length = 0.5;
+        e.axis = static_cast<std::uint8_t>(i % 3);
+        const Vec3 q = point_on(e, 1);
+        e.lower_value = f(e.lower.x, e.lower.y, e.lower.z);
+        e.upper_value = f(q.x, q.y, q.z);
+        if ((e.lower_value >= 0) != (e.upper_value >= 0)) edges.push_back(e);
+    }
+    std::vector<EdgeRoot> all, one;
+    EdgeRoots finder;
+    finder.find(field, edges, all);
+    for (std::size_t i = 0; i < edges.size(); ++i) {
+        finder.find(field, {edges[i]}, one);
+        CHECK(one[0].inside == all[i].inside);
+        CHECK(one[0].outside == all[i].outside);
+    }
+}
