@@ -16,7 +16,8 @@ using T = math::EmitLanes<Real>;
 template <class Real>
 constexpr bool is_straight(Op op, int arity, int cost) {
     // In binary32: the loops of BatchVm<float> (batch_loops.h).
-    const bool has_single = op == Op::exp || op == Op::log || op == Op::sin || op == Op::cos;
+    const bool has_single =
+        op == Op::exp || op == Op::log || op == Op::sin || op == Op::cos || op == Op::atan || op == Op::atan2;
     if (sizeof(Real) == sizeof(float) && !has_single) return arity <= 3 && cost <= 5;
     switch (op) {
         case Op::sardf_int:
