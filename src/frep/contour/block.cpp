@@ -376,6 +376,7 @@ void BlockContourer::add_cell(const Local& corner) {
         values[c] =
             values_[lattice_index({corner[0] + offset[0], corner[1] + offset[1], corner[2] + offset[2]})];
     }
+    if (part_ != &field_) take_whole_values(corner, values);
     const CellPolygons polygons = trace_cell(values);
     std::size_t at = 0;
     for (std::size_t p = 0; p < polygons.count; ++p) {
@@ -385,6 +386,23 @@ void BlockContourer::add_cell(const Local& corner) {
             node.is_last = at + 1 == end;
             mesh_.polygons.push_back(node);
         }
+    }
+}
+
+/// Off the surface a part has values of its own, which the part of the next block does not share. Where the
+/// polygons of a cell depend on values, both blocks at a face take those of the whole field.
+void BlockContourer::take_whole_values(const Local& corner, std::array<double, 8>& values) {
+    unsigned inside = 0;
+    for (unsigned c = 0; c < 8; ++c) inside |= (values[c] >= 0 ? 1U : 0U) << c;
+    if (!has_ambiguous_face(inside)) return;
+    for (std::size_t c = 0; c < 8; ++c) {
+        const auto& offset = corner_offsets[c];
+        const Local l{corner[0] + offset[0], corner[1] + offset[1], corner[2] + offset[2]};
+        if (is_layer(l)) continue;
+        const Vec3 p = sample_point(l);
+        double value = 0;
+        field_.values({{&p.x, 1}, {&p.y, 1}, {&p.z, 1}}, {&value, 1});
+        if ((value >= 0) == (values[c] >= 0)) values[c] = value;
     }
 }
 

@@ -109,6 +109,7 @@ class BlockContourer {
     /// A layer cell at an edge or a corner of the box: its nodes all lie on the edge, so it makes no polygon.
     bool is_flat_cell(const Local& cell) const;
     void add_cell(const Local& corner);
+    void take_whole_values(const Local& corner, std::array<double, 8>& values);
     PolygonNode polygon_node(const Local& cell, std::uint8_t cell_edge) const;
     std::vector<double>& column(std::size_t axis) { return axis == 0 ? x_ : axis == 1 ? y_ : z_; }
 

@@ -118,6 +118,12 @@ bool face_joins_inside(double a, double b, double c, double d) {
     return inner >= outer;
 }
 
+bool has_ambiguous_face(unsigned inside) {
+    for (const Face& face : faces)
+        if (is_ambiguous(face_signs(face, inside))) return true;
+    return false;
+}
+
 CellPolygons trace_cell(const std::array<double, 8>& values) {
     unsigned inside = 0;
     for (unsigned i = 0; i < 8; ++i) inside |= (values[i] >= 0 ? 1u : 0u) << i;

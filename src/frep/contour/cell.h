@@ -34,6 +34,10 @@ struct CellPolygons {
 /// unordered pairs, so that both cells at the face agree.
 bool face_joins_inside(double a, double b, double c, double d);
 
+/// True when a face has inside corners in opposition, whose polygons depend on more than signs. Bit i of
+/// `inside`: corner i is inside.
+bool has_ambiguous_face(unsigned inside);
+
 /// The polygons for the values at the eight corners; corner i is inside when values[i] >= 0 (NaN is outside).
 CellPolygons trace_cell(const std::array<double, 8>& values);
 
