@@ -118,6 +118,10 @@ int bench(BenchTexts& texts) {
 
     std::vector<TaskOutcome> outcomes;
     for (const BenchTask& task : *tasks) {
+        if (task.needs_native_code && !NativeCode<float>::is_available()) {
+            print_warning(fmt::format("{}: this build or this machine makes no native code", task.name));
+            continue;
+        }
         auto outcome = task.run(*prepared, options);
         if (!outcome) return fail(outcome.error());
         outcomes.push_back(std::move(*outcome));

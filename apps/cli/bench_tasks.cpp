@@ -79,8 +79,22 @@ constexpr int dense_points = 4096;
 /// Clauses on points that a run does at least, so that it can be timed.
 constexpr double least_operations = 4e7;
 
+/// How the points of a task are evaluated.
+enum class PointWork { values, gradients, native };
+
+/// Where the points of `box` lie in each coordinate of the model.
+std::vector<math::Interval> domain_of(const PreparedModel& prepared, const Box3& box) {
+    std::vector<math::Interval> domain;
+    for (const MappedCoordinate& c : prepared.map.coordinates) {
+        const math::Interval sides[3] = {
+            {box.min.x, box.max.x}, {box.min.y, box.max.y}, {box.min.z, box.max.z}};
+        domain.push_back(c.axis < 0 ? math::Interval(c.value) : sides[c.axis]);
+    }
+    return domain;
+}
+
 template <class Real>
-Result<TaskOutcome> run_points(const PreparedModel& prepared, const BenchOptions& options, bool gradients) {
+Result<TaskOutcome> run_points(const PreparedModel& prepared, const BenchOptions& options, PointWork work) {
     auto tape = tape_of(prepared);
     if (!tape) return tape.error();
     pack_rows(*tape);
@@ -94,18 +108,25 @@ Result<TaskOutcome> run_points(const PreparedModel& prepared, const BenchOptions
     std::vector<Real*> partial_pointers;
     for (auto& column : partials) partial_pointers.push_back(column.data());
     BatchVm<Real> vm;
-    TaskOutcome out{.task = gradients ? "gradient" : "dense", .profile = profile_name(options)};
+    const std::vector<math::Interval> domain = domain_of(prepared, options.box);
+    std::optional<NativeCode<Real>> code;
+    if (work == PointWork::native) {
+        code = NativeCode<Real>::compile(*tape, {.isa = machine_isa(), .domain = domain});
+        if (!code) return Error{ErrorKind::over_limit, "the system gives no memory for machine code"};
+    }
+    TaskOutcome out{.profile = profile_name(options)};
     out.size = static_cast<int>(count);
     out.amount = static_cast<double>(count) * turns;
     out.unit = "points";
     out.point_operations = static_cast<double>(tape->clauses.size()) * out.amount;
     const auto time = measure(options.repeat, [&]() -> Status {
         for (int i = 0; i < turns; ++i) {
-            if (gradients) {
+            if (work == PointWork::gradients)
                 vm.gradients(*tape, points.pointers(), count, values.data(), partial_pointers);
-            } else {
+            else if (work == PointWork::native)
+                code->run(points.pointers().data(), count, values.data());
+            else
                 vm.values(*tape, points.pointers(), count, values.data());
-            }
         }
         return {};
     });
@@ -114,14 +135,43 @@ Result<TaskOutcome> run_points(const PreparedModel& prepared, const BenchOptions
     return out;
 }
 
-Result<TaskOutcome> run_dense(const PreparedModel& prepared, const BenchOptions& options) {
-    return options.binary32 ? run_points<float>(prepared, options, false)
-                            : run_points<double>(prepared, options, false);
+Result<TaskOutcome> run_points(const PreparedModel& prepared, const BenchOptions& options, PointWork work,
+                               std::string_view name) {
+    auto out = options.binary32 ? run_points<float>(prepared, options, work)
+                                : run_points<double>(prepared, options, work);
+    if (out) out->task = name;
+    return out;
 }
 
+Result<TaskOutcome> run_dense(const PreparedModel& prepared, const BenchOptions& options) {
+    return run_points(prepared, options, PointWork::values, "dense");
+}
 Result<TaskOutcome> run_gradient(const PreparedModel& prepared, const BenchOptions& options) {
-    return options.binary32 ? run_points<float>(prepared, options, true)
-                            : run_points<double>(prepared, options, true);
+    return run_points(prepared, options, PointWork::gradients, "gradient");
+}
+Result<TaskOutcome> run_native(const PreparedModel& prepared, const BenchOptions& options) {
+    return run_points(prepared, options, PointWork::native, "native");
+}
+
+/// The tape of F as machine code; what a run of `native` leaves out.
+Result<TaskOutcome> run_compile(const PreparedModel& prepared, const BenchOptions& options) {
+    auto tape = tape_of(prepared);
+    if (!tape) return tape.error();
+    pack_rows(*tape);
+    const std::vector<math::Interval> domain = domain_of(prepared, options.box);
+    TaskOutcome out{.task = "compile", .profile = profile_name(options)};
+    out.amount = static_cast<double>(tape->clauses.size());
+    out.unit = "clauses";
+    const auto time = measure(options.repeat, [&]() -> Status {
+        const NativeOptions wanted{.isa = machine_isa(), .domain = domain};
+        const bool made = options.binary32 ? NativeCode<float>::compile(*tape, wanted).has_value()
+                                           : NativeCode<double>::compile(*tape, wanted).has_value();
+        if (!made) return Error{ErrorKind::over_limit, "the system gives no memory for machine code"};
+        return {};
+    });
+    if (!time) return time.error();
+    out.time = *time;
+    return out;
 }
 
 /// Ranges over 16 equal parts of a part of the box.
@@ -243,7 +293,7 @@ Result<TaskOutcome> run_mesh_task(const PreparedModel& prepared, const BenchOpti
     job.threads = options.threads;
     std::size_t triangles = 0;
     const auto time = measure(options.repeat, [&]() -> Status {
-        const auto result = contour_cells(**field, wanted, job);
+        const auto result = contour_adaptive(**field, wanted, job);
         if (!result) return result.error();
         triangles = result->mesh.triangles.size();
         return {};
@@ -260,6 +310,8 @@ constexpr std::array tasks{
     BenchTask{"load", "text in memory to a tape that can be evaluated", run_load},
     BenchTask{"dense", "F at points (--size of them a batch)", run_dense},
     BenchTask{"gradient", "F and its partial derivatives at points", run_gradient},
+    BenchTask{"compile", "the tape as machine code", run_compile, true},
+    BenchTask{"native", "F at the same points by machine code", run_native, true},
     BenchTask{"interval", "ranges of F over 16 boxes at a time", run_interval},
     BenchTask{"picture", "where F is inside on a plane, --size pixels a side", run_picture},
     BenchTask{"depth", "depth and normals from +z, --size voxels a side", run_depth},

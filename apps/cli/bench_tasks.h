@@ -36,9 +36,10 @@ struct BenchTask {
     std::string_view name;
     std::string_view doc;
     Result<TaskOutcome> (*run)(const PreparedModel& prepared, const BenchOptions& options);
+    bool needs_native_code = false;
 };
 
-/// load, dense, gradient, interval, picture, depth, mesh.
+/// load, dense, gradient, compile, native, interval, picture, depth, mesh.
 std::span<const BenchTask> bench_tasks();
 
 }  // namespace frep::cli
