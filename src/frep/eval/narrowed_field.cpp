@@ -50,6 +50,7 @@ class NarrowedField final : public SampledField {
     }
 
     bool can_narrow() const override { return true; }
+    bool has_dear_ranges() const override { return frep::has_dear_ranges(tape_); }
     void narrow(std::span<const Box3> boxes, std::span<SignRange> out,
                 std::span<std::shared_ptr<SampledField>> parts) override {
         Narrowing::narrow(narrowing_, tape_, boxes, out, parts);
@@ -85,13 +86,15 @@ SignRange signs_of(const RangeLanes& ranges, unsigned lane) {
 }  // namespace
 
 bool has_dear_ranges(const ClauseTape& tape) {
-    constexpr double most = 2000;  // additions' worth
-    ClauseTape sums;
-    sums.data = tape.data;
-    sums.operands = tape.operands;
+    constexpr double most = 120;  // additions' worth
+    constexpr int dear_cost = 30;
+    ClauseTape dear;
+    dear.data = tape.data;
+    dear.operands = tape.operands;
     for (const Clause& clause : tape.clauses)
-        if (info(clause.op).kind == OpKind::block) sums.clauses.push_back(clause);
-    return cost_of(sums) > most;
+        if (info(clause.op).kind == OpKind::block || info(clause.op).cost >= dear_cost)
+            dear.clauses.push_back(clause);
+    return cost_of(dear) > most;
 }
 
 Narrowing::Narrowing(AxisMap map) : engines_(std::make_unique<Engines>(std::move(map))) {}

@@ -11,7 +11,8 @@
 namespace frep {
 
 /// True where ranges cost much more than values do, so that looking at samples finds a surface sooner than
-/// proofs do: sums over hundreds of skeletons or samples, whose ranges are found term by term.
+/// proofs do: sums over tens of skeletons, tables, several octaves of noise, whose ranges are found box by
+/// box and term by term.
 bool has_dear_ranges(const ClauseTape& tape);
 
 /// Engines and workspace that a field and all its parts share: they serve one thread.

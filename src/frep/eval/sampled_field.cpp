@@ -68,8 +68,9 @@ class MappedField final : public SampledField {
         }
     }
 
-    bool can_narrow() const override {
-        return evaluator_->clauses() && !has_dear_ranges(*evaluator_->clauses());
+    bool can_narrow() const override { return evaluator_->clauses() != nullptr; }
+    bool has_dear_ranges() const override {
+        return !evaluator_->clauses() || frep::has_dear_ranges(*evaluator_->clauses());
     }
 
     void narrow(std::span<const Box3> boxes, std::span<SignRange> out,

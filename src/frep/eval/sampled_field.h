@@ -48,9 +48,10 @@ class SampledField {
     virtual void attributes(const PointSpans& points, std::span<const std::span<double>> out);
     /// out[b] = the signs that F may take in the closed box b.
     virtual void ranges(std::span<const Box3> boxes, std::span<SignRange> out) = 0;
-    /// True if narrow() can gain something. A field that cannot is evaluated whole everywhere, and its ranges
-    /// are dear (a loop that depends on the point): then samples are the better way to look for its surface.
+    /// True if narrow() can gain something.
     virtual bool can_narrow() const { return false; }
+    /// True where ranges cost much more than values do, so that samples find a surface sooner than proofs do.
+    virtual bool has_dear_ranges() const { return true; }
     /// ranges(), and what stands for F in the boxes where its sign is open: parts[b] has the sign of F at
     /// every point of box b, is undefined where F is, and has the gradient of F where F = 0; its other values
     /// may differ from those of F, also between boxes. Null where that would gain nothing over this object.

@@ -20,10 +20,10 @@ void FirstHit::trace(std::span<const Ray> rays, std::span<Hit> hits) {
     std::fill(hits.begin(), hits.end(), Hit{});
     if (!grid_.has_solid()) return;
     find_reaches(rays);
-    if (grid_.sampled() || !field_.can_narrow())
-        sample(rays, hits);
-    else
+    if (by_proof_)
         search_.search(rays, reaches_, hits);
+    else
+        sample(rays, hits);
 }
 
 /// Where each ray is both in the clip box and in the lattice, beyond which there is nothing.

@@ -16,9 +16,10 @@ namespace frep::tracing {
 class FirstHit {
   public:
     /// `spacing`: about the distance between neighbouring rays; `resolution`: the solid is found where it is
-    /// that thick along the ray, or thicker; both in model units, > 0.
-    FirstHit(const DistanceGrid& grid, SampledField& field, double spacing, double resolution)
-        : grid_(grid), field_(field), search_(field, spacing, resolution) {}
+    /// that thick along the ray, or thicker; both in model units, > 0. `by_proof`: false for samples alone.
+    FirstHit(const DistanceGrid& grid, SampledField& field, double spacing, double resolution,
+             bool by_proof = true)
+        : grid_(grid), field_(field), search_(field, spacing, resolution), by_proof_(by_proof) {}
 
     /// hits[i] for rays[i]. Rays near in number should be near in space (FrontSearch::search).
     void trace(std::span<const Ray> rays, std::span<Hit> hits);
@@ -39,6 +40,7 @@ class FirstHit {
     const DistanceGrid& grid_;
     SampledField& field_;
     FrontSearch search_;
+    bool by_proof_;
     std::vector<Reach> reaches_;
     std::vector<Walker> walkers_;
     std::vector<Bracket> brackets_;

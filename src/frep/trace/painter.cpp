@@ -93,8 +93,8 @@ std::vector<Vec3> framed_points(const DistanceGrid& grid, bool all_round) {
 }  // namespace
 
 struct Painter::Worker {
-    Worker(const DistanceGrid& grid, FieldPool& fields, double pixel)
-        : field(fields.borrow()), first_hit(grid, *field, pixel, thinnest * pixel) {}
+    Worker(const DistanceGrid& grid, FieldPool& fields, double pixel, bool by_proof)
+        : field(fields.borrow()), first_hit(grid, *field, pixel, thinnest * pixel, by_proof) {}
     FieldPool::Lease field;
     FirstHit first_hit;
     std::vector<Ray> rays;
@@ -108,9 +108,10 @@ struct Painter::Worker {
 };
 
 Painter::Painter(const DistanceGrid& grid, FieldPool& fields, const SceneOptions& scene,
-                 const PictureOptions& options, double lowest)
+                 const PictureOptions& options, bool by_proof)
     : grid_(grid),
       fields_(fields),
+      by_proof_(by_proof),
       options_(options),
       material_(material_of(options)),
       section_material_{"section", "", {options.section_color, 0, 0.8, 0}},
@@ -121,7 +122,7 @@ Painter::Painter(const DistanceGrid& grid, FieldPool& fields, const SceneOptions
              material_,
              linear(options.color.value_or(material_.look.base)),
              length({grid.cells()[0] * 1.0, grid.cells()[1] * 1.0, grid.cells()[2] * 1.0}) * grid.step(),
-             {options.ground && grid.has_solid(), lowest},
+             {options.ground && grid.has_solid(), grid.lowest()},
              cones_of(scene.quality)},
       shader_(stage_),
       section_base_(linear(options.section_color)) {
@@ -137,7 +138,7 @@ Result<Image> Painter::paint(const Job& job) {
     const int across = (options_.width + tile - 1) / tile, down = (options_.height + tile - 1) / tile;
     parallel_for(job, static_cast<std::size_t>(across * down), [&](std::size_t task) {
         const int x0 = static_cast<int>(task) % across * tile, y0 = static_cast<int>(task) / across * tile;
-        Worker worker(grid_, fields_, camera_.pixel_size());
+        Worker worker(grid_, fields_, camera_.pixel_size(), by_proof_);
         // In Morton order: any quarter of the tile is a square of neighbours.
         for (unsigned n = 0; n < unsigned{tile * tile}; ++n) {
             unsigned x = 0, y = 0;
@@ -335,7 +336,7 @@ void Painter::smooth_edges(const Job& job) {
     parallel_for(job, tasks, [&](std::size_t task) {
         const std::size_t first = task * edge_pixels_a_task;
         const std::size_t last = std::min(first + edge_pixels_a_task, list.size());
-        Worker worker(grid_, fields_, camera_.pixel_size());
+        Worker worker(grid_, fields_, camera_.pixel_size(), by_proof_);
         const auto width = static_cast<std::uint32_t>(options_.width);
         for (std::size_t e = first; e < last; ++e)
             for (const Vec2& rook : rooks)

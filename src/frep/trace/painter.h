@@ -26,8 +26,9 @@ struct Sample {
 
 class Painter {
   public:
+    /// `by_proof`: see FirstHit.
     Painter(const DistanceGrid& grid, FieldPool& fields, const SceneOptions& scene,
-            const PictureOptions& options, double lowest);
+            const PictureOptions& options, bool by_proof);
 
     /// The picture. Errors: cancelled.
     Result<Image> paint(const Job& job);
@@ -50,6 +51,7 @@ class Painter {
 
     const DistanceGrid& grid_;
     FieldPool& fields_;
+    bool by_proof_;
     const PictureOptions& options_;
     const NamedMaterial& material_;
     NamedMaterial section_material_;

@@ -76,6 +76,7 @@ struct SolidScene::Parts {
     std::unique_ptr<SampledField> field;
     std::unique_ptr<FieldPool> pool;
     tracing::DistanceGrid grid;
+    bool by_proof = false;
 };
 
 SolidScene::SolidScene(std::unique_ptr<Parts> parts) : parts_(std::move(parts)) {}
@@ -92,15 +93,17 @@ Result<SolidScene> SolidScene::make(const SampledField& field, const SceneOption
     auto grid = tracing::DistanceGrid::make(*parts->pool, *clip, cells_of(options), job);
     if (!grid) return grid.error();
     parts->grid = std::move(*grid);
+    const bool wanted = options.quality == PictureQuality::high || !parts->field->has_dear_ranges();
+    parts->by_proof = wanted && parts->field->can_narrow() && !parts->grid.sampled();
     return SolidScene(std::move(parts));
 }
 
 bool SolidScene::has_solid() const { return parts_->grid.has_solid(); }
-bool SolidScene::sampled() const { return parts_->grid.sampled() || !parts_->field->can_narrow(); }
+bool SolidScene::sampled() const { return !parts_->by_proof; }
 
 Result<Image> SolidScene::picture(const PictureOptions& options, const Job& job) const {
     if (const Status status = check(options); !status) return status.error();
-    tracing::Painter painter(parts_->grid, *parts_->pool, parts_->options, options, parts_->grid.lowest());
+    tracing::Painter painter(parts_->grid, *parts_->pool, parts_->options, options, parts_->by_proof);
     return painter.paint(job);
 }
 

@@ -166,3 +166,17 @@ TEST_CASE("a frozen coordinate and one axis that feeds two") {
     }
     CHECK(parts_seen > 3);
 }
+
+TEST_CASE("ranges of sums over many skeletons are dear, those of set operations are not") {
+    CHECK(!has_dear_ranges(*make_clause_tape(balls(true))));
+    for (const int blobs : {3, 60}) {
+        auto graph = std::make_shared<Graph>();
+        const NodeId axes[3] = {graph->coordinate(0), graph->coordinate(1), graph->coordinate(2)};
+        std::vector<NodeId> data;
+        for (int n = 0; n < 5 * blobs; ++n) data.push_back(graph->constant(0.01 * n));
+        Field field;
+        field.value = graph->make_block(Op::blobby, axes, data);
+        field.graph = graph;
+        CHECK(has_dear_ranges(*make_clause_tape(field)) == (blobs > 10));
+    }
+}

@@ -155,3 +155,24 @@ TEST_CASE("distances of a ball, inside the lattice and beyond") {
     CHECK(far > 28);
     CHECK(grid->distance({0.95, 0, 0}) < 0);
 }
+
+TEST_CASE("samples alone find what is thicker than half a cell") {
+    const auto ball = solid([](auto x, auto y, auto z) { return 1.0 - (x * x + y * y + z * z); });
+    const auto rays = rays_down(1.2, 20);
+    FieldPool pool(*ball);
+    const Job job;
+    const auto grid = DistanceGrid::make(pool, Box3::cube(1.5), 64, job);
+    REQUIRE(grid);
+    const FieldPool::Lease lease = pool.borrow();
+    std::vector<Hit> proved(rays.size()), sampled(rays.size());
+    FirstHit(*grid, *lease, 0.01, 1e-3, true).trace(rays, proved);
+    FirstHit(*grid, *lease, 0.01, 1e-3, false).trace(rays, sampled);
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+        const Vec3 o = rays[i].origin;
+        if (o.x * o.x + o.y * o.y > 0.98 && o.x * o.x + o.y * o.y < 1) continue;  // a grazed rim
+        REQUIRE(proved[i].is_hit() == sampled[i].is_hit());
+        if (!proved[i].is_hit()) continue;
+        CHECK(std::fabs(proved[i].t - sampled[i].t) < 1e-7);
+        CHECK(length(proved[i].gradient - sampled[i].gradient) < 1e-6);
+    }
+}
