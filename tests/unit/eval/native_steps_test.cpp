@@ -57,8 +57,7 @@ class Walker {
             case StepOp::greater:
                 return real(1) < real(0) ? bits(0) : bits(1);
             case StepOp::scale:
-                return of(single ? std::ldexp(static_cast<float>(real(0)), static_cast<int>(real(1)))
-                                 : std::ldexp(real(0), static_cast<int>(real(1))));
+                return of(scaled(single, real(0), real(1)));
             case StepOp::round:
                 return of(step.immediate == 1   ? std::floor(real(0))
                           : step.immediate == 2 ? std::ceil(real(0))
@@ -95,6 +94,12 @@ class Walker {
                 return called(step);
         }
         return 0;
+    }
+    /// x 2^floor(n), as the instruction has it: undefined where n is.
+    static double scaled(bool single, double x, double n) {
+        if (n != n) return n;
+        const int power = static_cast<int>(std::clamp(std::floor(n), -5000.0, 5000.0));
+        return single ? double{std::ldexp(static_cast<float>(x), power)} : std::ldexp(x, power);
     }
     static bool compare(Predicate p, double a, double b) {
         switch (p) {
