@@ -49,7 +49,6 @@ class NarrowedField final : public SampledField {
         narrowing_->ranges(tape_, boxes, out);
     }
 
-    bool can_narrow() const override { return true; }
     bool has_dear_ranges() const override { return frep::has_dear_ranges(tape_); }
     void narrow(std::span<const Box3> boxes, std::span<SignRange> out,
                 std::span<std::shared_ptr<SampledField>> parts) override {

@@ -68,7 +68,6 @@ class MappedField final : public SampledField {
         }
     }
 
-    bool can_narrow() const override { return evaluator_->clauses() != nullptr; }
     bool has_dear_ranges() const override {
         return !evaluator_->clauses() || frep::has_dear_ranges(*evaluator_->clauses());
     }

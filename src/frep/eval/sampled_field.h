@@ -48,9 +48,8 @@ class SampledField {
     virtual void attributes(const PointSpans& points, std::span<const std::span<double>> out);
     /// out[b] = the signs that F may take in the closed box b.
     virtual void ranges(std::span<const Box3> boxes, std::span<SignRange> out) = 0;
-    /// True if narrow() can gain something.
-    virtual bool can_narrow() const { return false; }
-    /// True where ranges cost much more than values do, so that samples find a surface sooner than proofs do.
+    /// True where ranges cost much more than values do, so that samples find a surface sooner than proofs do:
+    /// a field that cannot be narrowed, or has sums of many terms.
     virtual bool has_dear_ranges() const { return true; }
     /// ranges(), and what stands for F in the boxes where its sign is open: parts[b] has the sign of F at
     /// every point of box b, is undefined where F is, and has the gradient of F where F = 0; its other values

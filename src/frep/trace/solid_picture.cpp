@@ -94,7 +94,7 @@ Result<SolidScene> SolidScene::make(const SampledField& field, const SceneOption
     if (!grid) return grid.error();
     parts->grid = std::move(*grid);
     const bool wanted = options.quality == PictureQuality::high || !parts->field->has_dear_ranges();
-    parts->by_proof = wanted && parts->field->can_narrow() && !parts->grid.sampled();
+    parts->by_proof = wanted && !parts->grid.sampled();
     return SolidScene(std::move(parts));
 }
 
