@@ -24,8 +24,8 @@ struct PrintCheckOptions {
     double facing_angle = 45;      ///< degrees, 0..90; two faces that are farther from parallel are no wall
     double min_wall_mm = 0;        ///< the area of thinner walls is summed
     double min_gap_mm = 0;         ///< the area at narrower gaps is summed
-    double plate_tolerance_mm =
-        0.01;                      ///< what is at most this high above the lowest point rests on the plate
+    /// What is at most this high above the lowest point rests on the plate: a tenth of a usual first layer.
+    double plate_tolerance_mm = 0.02;
     std::size_t samples = 100000;  ///< on the whole surface, beside one on each triangle
     bool as_float32 = true;        ///< judge the coordinates rounded to binary32
 };
