@@ -10,7 +10,7 @@
 #include "frep/base/job.h"
 #include "frep/base/result.h"
 #include "frep/contour/block.h"
-#include "frep/contour/field_pool.h"
+#include "frep/eval/field_pool.h"
 #include "frep/geom/mesh.h"
 
 namespace frep::contouring {

@@ -57,8 +57,8 @@ Box3 block_box(const Grid& grid, std::uint64_t code) {
     return {grid.point(first[0], first[1], first[2]), grid.point(last[0], last[1], last[2])};
 }
 
-std::unique_ptr<BlockMesh> BlockContourer::contour(std::uint64_t code, SampledField* part) {
-    part_ = part ? part : &field_;
+std::unique_ptr<BlockMesh> BlockContourer::contour(std::uint64_t code, SampledField& part) {
+    part_ = &part;
     place(code);
     if (!sample(code)) return nullptr;
     mesh_.edges.clear();

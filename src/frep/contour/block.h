@@ -52,9 +52,9 @@ class BlockContourer {
     BlockContourer(const Grid& grid, SampledField& field, const BlockOptions& options)
         : grid_(grid), field_(field), part_(&field), options_(options) {}
 
-    /// The mesh of the block with this code; null when there is none. Adds to the tallies below. `part`, if
-    /// not null, stands for the field in block_box().
-    std::unique_ptr<BlockMesh> contour(std::uint64_t code, SampledField* part = nullptr);
+    /// The mesh of the block with this code; null when there is none. Adds to the tallies below. `part`
+    /// stands for the field in block_box(); it may be the field itself.
+    std::unique_ptr<BlockMesh> contour(std::uint64_t code, SampledField& part);
 
     UndefinedTally undefined;
     std::array<bool, 6> touches{};

@@ -5,8 +5,8 @@
 
 #include "frep/base/parallel.h"
 #include "frep/contour/contour.h"
-#include "frep/contour/field_pool.h"
 #include "frep/contour/sign_change.h"
+#include "frep/eval/field_pool.h"
 #include "frep/geom/bvh.h"
 
 namespace frep {

@@ -105,11 +105,7 @@ void subdivide(std::span<const std::uint64_t> parents, int level, const Grid& gr
     if (boxes.empty()) return;
     // What stands for F around all of them judges each.
     Box3 around = boxes[0];
-    for (const Box3& box : boxes)
-        around = {{std::min(around.min.x, box.min.x), std::min(around.min.y, box.min.y),
-                   std::min(around.min.z, box.min.z)},
-                  {std::max(around.max.x, box.max.x), std::max(around.max.y, box.max.y),
-                   std::max(around.max.z, box.max.z)}};
+    for (const Box3& box : boxes) around = joined(around, box);
     std::vector<SignRange> ranges(boxes.size());
     const FieldPool::Lease field = fields.borrow();
     FieldPart whole{around, nullptr};

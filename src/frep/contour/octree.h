@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "frep/base/job.h"
-#include "frep/contour/field_pool.h"
 #include "frep/contour/grid.h"
+#include "frep/eval/field_pool.h"
 
 namespace frep::contouring {
 

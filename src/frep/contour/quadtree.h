@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "frep/base/job.h"
-#include "frep/contour/field_pool.h"
 #include "frep/contour/plane_grid.h"
+#include "frep/eval/field_pool.h"
 
 namespace frep::contouring {
 

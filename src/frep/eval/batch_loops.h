@@ -6,6 +6,7 @@
 #pragma once
 
 #include "frep/eval/batch_frame.h"
+#include "frep/eval/single_functions.h"
 #include "frep/field/kernels/all.h"
 
 namespace frep::batch {
@@ -99,15 +100,8 @@ inline __attribute__((always_inline)) void loop(Kernel kernel, Source<Real> a, S
 template <class Real>
 constexpr bool has_loop(Op op, int arity, int cost) {
     if (arity > 3) return false;
-    if (cost <= 5) return true;
+    if (cost <= 5 || has_single_function(op)) return true;
     switch (op) {
-        case Op::exp:
-        case Op::log:
-        case Op::sin:
-        case Op::cos:
-        case Op::atan:
-        case Op::atan2:
-            return true;
         case Op::log10:
         case Op::tan:
         case Op::asin:

@@ -175,16 +175,17 @@ void pack_rows(ClauseTape& tape) {
     tape.rows = first + static_cast<RowNumber>(next_in_list.size());
 }
 
+double cost_of(const ClauseTape& tape, const Clause& clause) {
+    const OpInfo& row = info(clause.op);
+    const std::size_t items = row.kind == OpKind::block ? clause.count - static_cast<std::size_t>(row.arity) +
+                                                              tape.block_of(clause).size()
+                                                        : 1;
+    return row.cost * static_cast<double>(items);
+}
+
 double cost_of(const ClauseTape& tape) {
     double cost = 0;
-    for (const Clause& clause : tape.clauses) {
-        const OpInfo& row = info(clause.op);
-        const std::size_t items =
-            row.kind == OpKind::block
-                ? clause.count - static_cast<std::size_t>(row.arity) + tape.block_of(clause).size()
-                : 1;
-        cost += row.cost * static_cast<double>(items);
-    }
+    for (const Clause& clause : tape.clauses) cost += cost_of(tape, clause);
     return cost;
 }
 

@@ -77,7 +77,8 @@ ClauseTape shifted(const ClauseTape& tape, double iso);
 /// must be in single assignment or already packed.
 void pack_rows(ClauseTape& tape);
 
-/// Sum of the costs of its clauses by the op table (an addition of one point is 1).
+/// The cost of a clause of `tape` by the op table (an addition at one point is 1), and of all its clauses.
+double cost_of(const ClauseTape& tape, const Clause& clause);
 double cost_of(const ClauseTape& tape);
 
 }  // namespace frep

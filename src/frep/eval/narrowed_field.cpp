@@ -87,13 +87,11 @@ SignRange signs_of(const RangeLanes& ranges, unsigned lane) {
 bool has_dear_ranges(const ClauseTape& tape) {
     constexpr double most = 120;  // additions' worth
     constexpr int dear_cost = 30;
-    ClauseTape dear;
-    dear.data = tape.data;
-    dear.operands = tape.operands;
+    double cost = 0;
     for (const Clause& clause : tape.clauses)
         if (info(clause.op).kind == OpKind::block || info(clause.op).cost >= dear_cost)
-            dear.clauses.push_back(clause);
-    return cost_of(dear) > most;
+            cost += cost_of(tape, clause);
+    return cost > most;
 }
 
 Narrowing::Narrowing(AxisMap map) : engines_(std::make_unique<Engines>(std::move(map))) {}

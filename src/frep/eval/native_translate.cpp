@@ -1,5 +1,6 @@
 // Implementation of native_translate.h.
 #include "frep/eval/native_translate.h"
+#include "frep/eval/single_functions.h"
 
 #include "frep/eval/native_lanes.h"
 // after the lane type, whose functions the kernels look up
@@ -16,9 +17,7 @@ using T = math::EmitLanes<Real>;
 template <class Real>
 constexpr bool is_straight(Op op, int arity, int cost) {
     // In binary32: the loops of BatchVm<float> (batch_loops.h).
-    const bool has_single =
-        op == Op::exp || op == Op::log || op == Op::sin || op == Op::cos || op == Op::atan || op == Op::atan2;
-    if (sizeof(Real) == sizeof(float) && !has_single) return arity <= 3 && cost <= 5;
+    if (sizeof(Real) == sizeof(float) && !has_single_function(op)) return arity <= 3 && cost <= 5;
     switch (op) {
         case Op::sardf_int:
         case Op::ellipsoid_distance:

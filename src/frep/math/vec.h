@@ -52,4 +52,12 @@ struct Box3 {
     }
 };
 
+/// The smallest box around two.
+constexpr Box3 joined(const Box3& a, const Box3& b) {
+    const auto lesser = [](double u, double v) { return v < u ? v : u; };
+    const auto greater = [](double u, double v) { return u < v ? v : u; };
+    return {{lesser(a.min.x, b.min.x), lesser(a.min.y, b.min.y), lesser(a.min.z, b.min.z)},
+            {greater(a.max.x, b.max.x), greater(a.max.y, b.max.y), greater(a.max.z, b.max.z)}};
+}
+
 }  // namespace frep

@@ -32,11 +32,6 @@ Box3 octant(const Box3& box, unsigned c) {
             {c & 1 ? box.max.x : m.x, c & 2 ? box.max.y : m.y, c & 4 ? box.max.z : m.z}};
 }
 
-Box3 joined(const Box3& a, const Box3& b) {
-    return {{std::min(a.min.x, b.min.x), std::min(a.min.y, b.min.y), std::min(a.min.z, b.min.z)},
-            {std::max(a.max.x, b.max.x), std::max(a.max.y, b.max.y), std::max(a.max.z, b.max.z)}};
-}
-
 double volume(const Box3& box) {
     const Vec3 side = box.max - box.min;
     return side.x * side.y * side.z;

@@ -18,11 +18,6 @@ Box3 box_between(const Ray& ray, double begin, double end) {
             {std::max(a.x, b.x), std::max(a.y, b.y), std::max(a.z, b.z)}};
 }
 
-Box3 joined(const Box3& a, const Box3& b) {
-    return {{std::min(a.min.x, b.min.x), std::min(a.min.y, b.min.y), std::min(a.min.z, b.min.z)},
-            {std::max(a.max.x, b.max.x), std::max(a.max.y, b.max.y), std::max(a.max.z, b.max.z)}};
-}
-
 }  // namespace
 
 void FrontSearch::search(std::span<const Ray> rays, std::span<const Reach> reaches, std::span<Hit> hits) {
