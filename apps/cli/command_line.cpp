@@ -8,6 +8,7 @@
 #include <CLI/CLI.hpp>
 
 #include "budget.h"
+#include "frep/eval/isa.h"
 #include "terminal.h"
 #include "values.h"
 
@@ -44,6 +45,12 @@ std::string message_of(const CLI::ParseError& error) {
     return text;
 }
 
+std::optional<Isa> isa_named(std::string_view name) {
+    for (const Isa isa : {Isa::sse2, Isa::avx2, Isa::avx512})
+        if (name == name_of(isa)) return isa;
+    return std::nullopt;
+}
+
 }  // namespace
 
 struct CommandLine::Parser {
@@ -70,6 +77,7 @@ CommandLine::CommandLine(std::string_view verb, std::string_view synopsis, std::
     parser_->names.emplace_back("--color");
     text("--time-limit", common_.time_limit, "TIME", "stop with exit code 5 after this long: 10s, 2m, 500ms");
     text("--memory-limit", common_.memory_limit, "SIZE", "use at most this much memory: 512M, 2G");
+    text("--isa", common_.isa, "SET", "instructions no wider than sse2, avx2 or avx512; the same results");
 }
 
 CommandLine::~CommandLine() = default;
@@ -134,6 +142,11 @@ std::optional<int> CommandLine::apply_common() {
         if (!bytes) return usage_error("--memory-limit: " + bytes.error().message);
         budget.memory = *bytes;
         memory_bytes_ = *bytes;
+    }
+    if (common_.isa) {
+        const auto limit = isa_named(*common_.isa);
+        if (!limit) return usage_error(fmt::format("--isa: `{}` is not sse2, avx2 or avx512", *common_.isa));
+        set_isa_limit(*limit);
     }
     set_budget(budget);
     return std::nullopt;

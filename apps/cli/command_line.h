@@ -19,6 +19,7 @@ struct CommonOptions {
     std::string color = "auto";
     std::optional<std::string> time_limit;
     std::optional<std::string> memory_limit;
+    std::optional<std::string> isa;
 };
 
 class CommandLine {

@@ -81,6 +81,8 @@ std::string engines_text() {
     for (const EngineInfo& engine : engines())
         out += fmt::format("{:<10} {}{}\n", engine.name, engine.doc,
                            engine.engine == EvaluatorOptions{}.engine ? " (default)" : "");
+    out += fmt::format("instructions up to {}; {} native code\n", name_of(machine_isa()),
+                       NativeCode<double>::is_available() ? "with" : "without");
     return out;
 }
 
@@ -246,7 +248,11 @@ int describe_model(const InfoOptions& options) {
 int describe_program(const InfoOptions& options) {
     if (options.json) {
         Json out = {{"schema", "frep.info/1"}};
-        if (options.engines) out["engines"] = engines_json();
+        if (options.engines) {
+            out["engines"] = engines_json();
+            out["instruction_set"] = name_of(machine_isa());
+            out["native_code"] = NativeCode<double>::is_available();
+        }
         if (options.library) out["library"] = library_json();
         return print_result(json_bytes(out));
     }

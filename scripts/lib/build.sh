@@ -109,15 +109,17 @@ check() {
     fi
 }
 
-# run_fuzzer PROGRAM SECONDS: runs the fuzz program fuzz_NAME on its seeds in fuzz/corpus/NAME; what it finds
-# goes to out/fuzz/.
+# run_fuzzer PROGRAM SECONDS: runs the fuzz program fuzz_NAME on its seeds in fuzz/corpus/NAME with the words of
+# fuzz/NAME.dict, or else of HyperFun; what it finds goes to out/fuzz/.
 run_fuzzer() {
-    local name folder
+    local name folder words
     name=$(basename "$1")
     folder=$root/out/fuzz/$name
     mkdir -p "$folder/corpus"
+    words=$root/fuzz/${name#fuzz_}.dict
+    [[ -f $words ]] || words=$root/fuzz/hyperfun.dict
     "$1" -max_total_time="$2" -timeout=20 -rss_limit_mb=4096 -print_final_stats=1 -artifact_prefix="$folder/" \
-        -dict="$root/fuzz/hyperfun.dict" "$folder/corpus" "$root/fuzz/corpus/${name#fuzz_}" >"$folder/log" 2>&1 ||
+        -dict="$words" "$folder/corpus" "$root/fuzz/corpus/${name#fuzz_}" >"$folder/log" 2>&1 ||
         { tail -n 40 "$folder/log" >&2; return 1; }
     grep -a 'stat::number_of_executed_units' "$folder/log" || true
 }

@@ -1,6 +1,7 @@
-// judge.mjs glb|manifold FILES: GLB files by the Khronos glTF validator and by their own numbers; OFF files by
-// the Manifold library, which accepts closed oriented meshes only. What is expected stands in NAME.expect
-// (write_samples.cpp). Prints a line for each difference and exits with 1 if there is one.
+// judge.mjs glb|manifold|batch FILES: GLB files by the Khronos glTF validator and by their own numbers; OFF
+// files and batches of meshes (mesh_batch.h) by the Manifold library, which accepts closed oriented meshes only.
+// What is expected stands in NAME.expect (write_samples.cpp) or in the batch. Prints a line for each difference
+// and exits with 1 if there is one.
 import { readFileSync } from 'node:fs';
 
 let differences = 0;
@@ -87,10 +88,15 @@ function parseOff(text) {
   return { position, index };
 }
 
-async function judgeManifold(files) {
+async function loadManifold() {
   const { default: load } = await import('manifold-3d');
   const library = await load();
   library.setup();
+  return library;
+}
+
+async function judgeManifold(files) {
+  const library = await loadManifold();
   for (const file of files) {
     const { position, index } = parseOff(readFileSync(file, 'utf8'));
     const closed = expectation(file).objects.every((object) => object.volume !== null);
@@ -107,7 +113,52 @@ async function judgeManifold(files) {
   }
 }
 
+/// The meshes of a batch, one after the other.
+function* meshesOf(file) {
+  const bytes = readFileSync(file);
+  for (let at = 0; at < bytes.length;) {
+    const end = bytes.indexOf(10, at);
+    const [word, name, expected, volume, vertices, triangles] = bytes.toString('latin1', at, end).split(' ');
+    if (word !== 'mesh') throw new Error(`${file} is no batch`);
+    const numbers = (Type, count, from) =>
+      new Type(bytes.buffer.slice(bytes.byteOffset + from, bytes.byteOffset + from + 4 * count));
+    const corners = end + 1 + 12 * Number(vertices);
+    at = corners + 12 * Number(triangles);
+    yield { name, expected, volume: volume === '-' ? null : Number(volume),
+            position: numbers(Float32Array, 3 * vertices, end + 1),
+            index: numbers(Uint32Array, 3 * triangles, corners) };
+  }
+}
+
+/// Manifold parts pinched vertices and does not look for crossings: no faults for it.
+async function judgeBatch(files) {
+  const library = await loadManifold();
+  for (const file of files) {
+    const count = { sound: 0, refused: 0, measured: 0 };
+    for (const { name, expected, volume, position, index } of meshesOf(file)) {
+      if (index.length === 0) continue;  // it refuses a mesh of nothing
+      let found = null;
+      try {
+        const solid = new library.Manifold(new library.Mesh({ numProp: 3, vertProperties: position, triVerts: index }));
+        found = solid.volume();
+        solid.delete();
+        ++count.sound;
+      } catch (error) {
+        ++count.refused;
+      }
+      const wanted = expected !== 'open' && expected !== 'misoriented';
+      if ((found !== null) !== wanted) report(name, found === null ? 'no manifold' : `${expected}, but accepted`);
+      if (found === null || volume === null) continue;
+      ++count.measured;
+      if (!(Math.abs(found - volume) <= 0.02 * volume + 1e-4)) report(name, `volume ${found}, not ${volume}`);
+    }
+    if (count.refused < 2 || count.measured === 0) report(file, 'is no batch with faults and volumes');
+    console.log(`Manifold: ${count.sound} accepted, ${count.refused} refused, ${count.measured} volumes`);
+  }
+}
+
+const judges = { glb: judgeGlb, manifold: judgeManifold, batch: judgeBatch };
 const [kind, ...files] = process.argv.slice(2);
-await (kind === 'glb' ? judgeGlb(files) : judgeManifold(files));
+await judges[kind](files);
 console.log(`${kind}: ${files.length} files, ${differences} differences`);
 process.exit(files.length > 0 && differences === 0 ? 0 : 1);

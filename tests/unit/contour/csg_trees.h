@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cmath>
+#include <cstdlib>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -11,6 +12,7 @@
 #include "frep/eval/sampled_field.h"
 #include "frep/field/expression.h"
 #include "frep/field/field.h"
+#include "frep/geom/mesh_check.h"
 #include "unit/contour/test_fields.h"
 
 namespace frep::test {
@@ -131,6 +133,33 @@ inline double sampled_volume(SampledField& field, double half, int n, std::uint6
         for (const double v : values) inside += v >= 0 ? 1u : 0u;
     }
     return static_cast<double>(inside) * step * step * step;
+}
+
+/// How many solids the tests take: 50; 1,000 with FREP_FULL=1.
+inline std::uint64_t csg_solids() {
+    const char* full = std::getenv("FREP_FULL");
+    return full && full[0] == '1' ? 1000 : 50;
+}
+
+/// The solids of the tests, every other one by R-functions.
+inline Field csg_solid(std::uint64_t seed) { return random_solid(seed / 2, seed % 2 == 1); }
+
+struct VolumeTrial {
+    double found = 0;     ///< of the mesh
+    double expected = 0;  ///< from samples
+    bool is_right() const { return std::abs(found - expected) <= 0.02 * expected + 1e-4; }
+};
+
+/// Compares the volume of mesh_at(cells) with one from samples. What thin parts and the chance of the samples
+/// take away must vanish with the resolution: the first of three that is right, or the last.
+template <class MeshAt>
+VolumeTrial try_volume(SampledField& field, std::uint64_t seed, MeshAt mesh_at) {
+    VolumeTrial trial;
+    for (const int cells : {64, 128, 192}) {
+        trial = {check(mesh_at(cells)).volume.value_or(0), sampled_volume(field, csg_bounds, cells, seed)};
+        if (trial.is_right()) break;
+    }
+    return trial;
 }
 
 }  // namespace frep::test

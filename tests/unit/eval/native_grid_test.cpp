@@ -2,6 +2,7 @@
 // engine: random fields, grids of odd sizes and of several parts, in and out of the domain.
 #include <doctest/doctest.h>
 
+#include <cstdio>
 #include <cstring>
 
 #include "frep/eval/native_code.h"
@@ -59,7 +60,7 @@ std::size_t differing(const ClauseTape& tape, const NativeOptions& options, std:
 
 TEST_CASE("random fields on grids") {
     if (!NativeCode<double>::is_available()) {
-        MESSAGE("skipped: 1 (no native code in this build or on this machine)");
+        std::puts("skipped: 1 (no native code in this build or on this machine)");
         return;
     }
     const std::vector<math::Interval> domain(3, math::Interval(-2.0, 2.0));

@@ -4,13 +4,13 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
-#include <filesystem>
-#include <string>
 #include <vector>
 
 #include "frep/frep.h"
+#include "unit/gallery/models.h"
 
 using namespace frep;
+using namespace frep::test;
 
 namespace {
 
@@ -26,42 +26,6 @@ const std::vector<int> resolutions{48, 72, 96};
 #else
 const std::vector<int> resolutions{48, 72, 96};
 #endif
-
-const std::filesystem::path examples = std::filesystem::path(FREP_SOURCE_DIR) / "examples";
-
-std::vector<std::filesystem::path> models_in(const std::filesystem::path& folder) {
-    std::vector<std::filesystem::path> out;
-    for (const auto& entry : std::filesystem::directory_iterator(folder))
-        if (entry.path().extension() == ".hf") out.push_back(entry.path());
-    std::sort(out.begin(), out.end());
-    return out;
-}
-
-struct Loaded {
-    Model model;
-    Field field;
-    Box3 box;
-};
-
-/// The model with its default parameters; there must be no warning.
-Loaded load(const std::filesystem::path& path) {
-    auto model = compile_file(path.string());
-    REQUIRE_MESSAGE(static_cast<bool>(model), (model ? "" : model.error().message));
-    Diagnostics findings = model->diagnostics();
-    const auto object = model->find_object("");
-    REQUIRE(object);
-    const auto lowered = model->lower(*object, model->complete_parameters(*object, {}), findings);
-    for (const Diagnostic& finding : findings.list())
-        CHECK_MESSAGE(finding.severity == Severity::note, render(findings, model->source()));
-    REQUIRE(lowered);
-    std::vector<double> pairs = model->program().annotations.bounds;
-    const auto n = static_cast<std::size_t>(lowered->field.coordinates);
-    REQUIRE(pairs.size() == 2 * n);
-    pairs.resize(std::max<std::size_t>(pairs.size(), 6));
-    if (n == 2) pairs[4] = -1, pairs[5] = 1;
-    return {
-        std::move(*model), lowered->field, {{pairs[0], pairs[2], pairs[4]}, {pairs[1], pairs[3], pairs[5]}}};
-}
 
 }  // namespace
 
