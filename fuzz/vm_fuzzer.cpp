@@ -1,6 +1,6 @@
 // libFuzzer target: a model in the `.vm` text form all the way: parse, lift its set operations or not, render
-// the diagnostics, evaluate at two points by all engines. Crashes, hangs, sanitizer reports and differing bits
-// are findings.
+// the diagnostics, evaluate at two points by all engines. Crashes, hangs, sanitizer reports and differing
+// bits are findings.
 #include <cstdint>
 
 #include "same_engines.h"

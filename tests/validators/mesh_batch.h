@@ -24,9 +24,9 @@ static_assert(std::endian::native == std::endian::little, "batches are little-en
 
 struct BatchMesh {
     std::string name, expected = "sound";
-    std::optional<double> volume;
-    std::vector<float> coordinates;      ///< x, y, z of each vertex
-    std::vector<std::uint32_t> corners;  ///< three vertices a triangle
+    std::optional<double> volume = {};
+    std::vector<float> coordinates = {};      ///< x, y, z of each vertex
+    std::vector<std::uint32_t> corners = {};  ///< three vertices a triangle
 };
 
 inline void write_mesh(std::ostream& out, const BatchMesh& mesh) {

@@ -5,7 +5,7 @@ namespace frep::contouring {
 
 namespace {
 
-constexpr int most_steps = 32;        // bisection needs 30 to reach root_width
+constexpr int most_steps = 42;        // bisection needs 40 to reach root_width
 constexpr double secant_shift = 0.1;  // towards the middle, times the squared way to the nearer end
 
 /// The value that the secant takes for the end that stays where it is, after the other end's value went from

@@ -30,7 +30,9 @@ struct EdgeRoot {
     bool is_wall = false;            ///< F is undefined at `outside`
 };
 
-inline constexpr double root_width = 1e-9;  ///< in edges
+/// In edges. Beside a crease of an R-function the gradient turns within the bracket, so that a wider one
+/// shows in the vertices where a pruned part has no crease.
+inline constexpr double root_width = 1e-12;
 
 class EdgeRoots {
   public:

@@ -41,7 +41,7 @@ Search search(const std::function<double(double)>& f) {
     CHECK(f(2 + 4 * roots[0].inside) >= 0);
     CHECK(!(f(2 + 4 * roots[0].outside) >= 0));
     CHECK(std::abs(roots[0].inside - roots[0].outside) <= root_width);
-    CHECK(result.evaluations <= 32);
+    CHECK(result.evaluations <= 42);
     return result;
 }
 

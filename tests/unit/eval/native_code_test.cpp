@@ -281,9 +281,9 @@ std::vector<std::string> mnemonics(std::span<const std::uint8_t> bytes) {
 
 TEST_CASE("the instructions are those that compute, and one return a code") {
     if (unavailable()) return;
-    const std::set<std::string> plain = {
-        "mov", "movabs", "push", "pop", "add", "sub",  "cmp",  "test",   "lea", "dec",  "je",  "jne",
-        "jae", "jmp",    "call", "ret", "nop", "nopw", "nopl", "data16", "cs",  "xchg", "int3"};
+    const std::set<std::string> plain = {"mov", "movabs", "push", "pop",    "add", "sub",  "cmp",  "test",
+                                         "lea", "dec",    "je",   "jne",    "jae", "jmp",  "call", "ret",
+                                         "nop", "nopw",   "nopl", "data16", "cs",  "xchg", "int3"};
     for (const Isa isa : sets()) {
         INFO(name_of(isa));
         std::vector<std::uint8_t> bytes;
@@ -312,8 +312,8 @@ TEST_CASE("the instructions are those that compute, and one return a code") {
         for (const std::string& word : listed) {
             INFO(word);
             // Vectors and masks but no fused products, which would round once instead of twice.
-            const bool vector = (word[0] == 'v' && !word.starts_with("vfm") && !word.starts_with("vfnm")) ||
-                                word[0] == 'k';
+            const bool vector =
+                (word[0] == 'v' && !word.starts_with("vfm") && !word.starts_with("vfnm")) || word[0] == 'k';
             REQUIRE((vector || plain.count(word) == 1));
             returns += word == "ret";
         }

