@@ -8,7 +8,7 @@
 #include <CLI/CLI.hpp>
 
 #include "budget.h"
-#include "frep/eval/isa.h"
+#include "frep/frep.h"
 #include "terminal.h"
 #include "values.h"
 
