@@ -76,8 +76,8 @@ void store_chosen(LanesOf<E, N> value, unsigned bits, E* to) {
 #elif defined(__AVX2__)
     const unsigned choice = sizeof(E) == 4 ? bits : doubled[bits];
     const auto v = value.items.v;
-    const __m256i from = _mm256_cvtepu8_epi32(
-        _mm_loadl_epi64(reinterpret_cast<const __m128i*>(&moves.from[choice][0])));
+    const __m256i from =
+        _mm256_cvtepu8_epi32(_mm_loadl_epi64(reinterpret_cast<const __m128i*>(&moves.from[choice][0])));
     const auto packed = _mm256_permutevar8x32_epi32(reinterpret_cast<__m256i>(v), from);
     __builtin_memcpy(to, &packed, sizeof(packed));
 #else
@@ -111,9 +111,7 @@ struct Loops {
     static void keep(L value, unsigned bits, I* to) {
         keep(value, bits, reinterpret_cast<Real*>(to));  // written as bytes
     }
-    static L absolute(L a) {
-        return L(a.bits() & math::Format<Real>::magnitude);
-    }
+    static L absolute(L a) { return L(a.bits() & math::Format<Real>::magnitude); }
     static L larger(L a, L b) { return select(less(a, b), b, a); }
     static L square_root(L a) {
         return L(math::each<typename L::Items>([](auto v) { return math::square_roots(v); }, a.items));
@@ -143,7 +141,8 @@ struct Loops {
     }
 
     static void add(const PixelBlock<Real>& given, Rays<Real>& result) {
-        const PixelBlock<Real> block = given;  // copies stay in registers: stores of lanes could change others
+        const PixelBlock<Real> block =
+            given;  // copies stay in registers: stores of lanes could change others
         Rays<Real> rays = result;
         for (int j = 0; j < block.height; ++j) {
             const std::size_t row = static_cast<std::size_t>(j) * block.row_stride;
@@ -156,8 +155,7 @@ struct Loops {
                 if ((open >> i & 1u) == 0) continue;
                 rays.x[rays.count] = block.x[i];
                 rays.y[rays.count] = block.y[j];
-                rays.pixel[rays.count++] =
-                    static_cast<I>(block.first + row + static_cast<std::size_t>(i));
+                rays.pixel[rays.count++] = static_cast<I>(block.first + row + static_cast<std::size_t>(i));
             }
         }
         result.count = rays.count;

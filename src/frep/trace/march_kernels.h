@@ -19,9 +19,9 @@ inline constexpr std::size_t slack = 16;
 /// Pixels of a picture, `width` x `height` of them (at most 8 wide), rows `row_stride` pixels apart.
 template <class Real>
 struct PixelBlock {
-    const std::uint16_t* layers;     ///< of the first pixel; 0: its ray has met nothing yet
-    std::size_t first, row_stride;   ///< number of the first pixel
-    const Real *x, *y;               ///< of its columns and rows
+    const std::uint16_t* layers;    ///< of the first pixel; 0: its ray has met nothing yet
+    std::size_t first, row_stride;  ///< number of the first pixel
+    const Real *x, *y;              ///< of its columns and rows
     int width, height;
 };
 
@@ -38,9 +38,9 @@ struct Rays {
 template <class Real>
 struct Hits {
     Real *x, *y;
-    Real* z;             ///< where the chord between the two voxels meets 0
+    Real* z;              ///< where the chord between the two voxels meets 0
     Real *inner, *outer;  ///< z of the first voxel inside, and of the one in front of it
-    Real* layer;         ///< number of the first
+    Real* layer;          ///< number of the first
     Index<Real>* pixel;
     std::size_t count;
 };

@@ -35,9 +35,9 @@ class ColumnMarch {
         for (auto& column : pixels_) column.resize(room);
         partials_.resize(room * sources.count);
         rays_ = {columns_[0].data(), columns_[1].data(), columns_[2].data(), pixels_[0].data(), 0};
-        hits_ = {surface_.axis[0].data(), surface_.axis[1].data(), surface_.axis[2].data(),
-                 columns_[3].data(),      columns_[4].data(),      columns_[5].data(),
-                 pixels_[1].data(),       0};
+        hits_ = {
+            surface_.axis[0].data(), surface_.axis[1].data(), surface_.axis[2].data(), columns_[3].data(),
+            columns_[4].data(),      columns_[5].data(),      pixels_[1].data(),       0};
         point_operations_ = 0;
     }
 
