@@ -72,7 +72,7 @@ Json engines_json() {
     for (const EngineInfo& engine : engines())
         list.push_back({{"name", engine.name},
                         {"doc", engine.doc},
-                        {"default", engine.engine == EvaluatorOptions{}.engine}});
+                        {"default", &engine == &engines().back()}});
     return list;
 }
 
@@ -80,7 +80,7 @@ std::string engines_text() {
     std::string out;
     for (const EngineInfo& engine : engines())
         out += fmt::format("{:<10} {}{}\n", engine.name, engine.doc,
-                           engine.engine == EvaluatorOptions{}.engine ? " (default)" : "");
+                           &engine == &engines().back() ? " (default)" : "");
     return out;
 }
 
