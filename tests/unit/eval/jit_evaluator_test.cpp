@@ -5,9 +5,12 @@
 #include <doctest/doctest.h>
 
 #include <atomic>
+#include <cstdlib>
+#include <string>
 
 #include "frep/base/parallel.h"
 #include "frep/eval/native_code.h"
+#include "support/evaluate.h"
 #include "unit/eval/engines.h"
 #include "unit/eval/random_graph.h"
 
@@ -85,4 +88,24 @@ TEST_CASE("clones of jit share what they compile, from any thread") {
     parallel_for(job, clones.size(),
                  [&](std::size_t i) { wrong += differences(expected, values_of(*clones[i], points, rows)); });
     CHECK(wrong == 0);
+}
+
+// More values than registers: one that ends is read from memory while others go there (native_writer.h).
+TEST_CASE("jit gives the bits of the vm for Prospero") {
+    const char* const shared = std::getenv("FREP_SHARED");
+    const std::string text =
+        test::read_text(std::string(shared != nullptr ? shared : "") + "/bench/models/prospero.vm");
+    if (text.empty()) {
+        MESSAGE("skipped: 1 (no prospero.vm)");
+        return;
+    }
+    const Model model(Source("prospero.vm", text), {}, ModelText::vm);
+    const auto field = model.field();
+    REQUIRE(static_cast<bool>(field));
+    Random random(9);
+    Columns<double> points(static_cast<std::size_t>(field->coordinates), 4096);
+    for (auto& column : points.columns)
+        for (double& x : column) x = random.real(-1, 1);
+    const auto vm = engine(*field, Engine::vm), jit = engine(*field, Engine::jit);
+    CHECK(differences(values_of(*vm, points, 4096), values_of(*jit, points, 4096)) == 0);
 }

@@ -131,40 +131,6 @@ TEST_CASE("each operation as native code gives what the reference engine gives")
     }
 }
 
-TEST_CASE("more values than registers, read from memory for the last time while others go there") {
-    if (unavailable()) return;
-    Random random(5);
-    auto graph = std::make_shared<Graph>();
-    Field field;
-    field.coordinates = 2;
-    std::vector<NodeId> pool;
-    const NodeId x = graph->coordinate(0), y = graph->coordinate(1);
-    for (int i = 0; i < 120; ++i)
-        pool.push_back(
-            graph->make(Op::add, {graph->make(Op::mul, {x, graph->constant(random.real(-2, 2))}),
-                                  graph->make(Op::mul, {y, graph->constant(random.real(-2, 2))})}));
-    // a value that lives on and one that ends make a new one, until one is left
-    for (int i = 0; pool.size() > 1; ++i) {
-        const std::size_t stays = random.below(pool.size() - 1);
-        const NodeId made = graph->make(i % 3 == 0 ? Op::min : Op::sub, {pool[stays], pool.back()});
-        pool.back() = made;
-        std::swap(pool.back(), pool[random.below(pool.size())]);
-        if (i % 2 == 0) {
-            const NodeId last = pool.back();
-            pool.pop_back();
-            pool.front() = graph->make(Op::max, {pool.front(), last});
-        }
-    }
-    field.value = pool[0];
-    field.graph = std::move(graph);
-    const auto points = random_points(random, 2, 403);
-    for (const Isa isa : sets()) {
-        INFO(name_of(isa));
-        CHECK(differing(field, points, {isa, {}}) == 0);
-        CHECK(differing_singles(field, points, {isa, {}}) == 0);
-    }
-}
-
 TEST_CASE("random fields as native code") {
     if (unavailable()) return;
     for (std::uint64_t seed = 0; seed < 400; ++seed) {
