@@ -70,9 +70,8 @@ std::string library_text() {
 Json engines_json() {
     Json list = Json::array();
     for (const EngineInfo& engine : engines())
-        list.push_back({{"name", engine.name},
-                        {"doc", engine.doc},
-                        {"default", &engine == &engines().back()}});
+        list.push_back(
+            {{"name", engine.name}, {"doc", engine.doc}, {"default", &engine == &engines().back()}});
     return list;
 }
 
