@@ -70,9 +70,8 @@ std::string library_text() {
 Json engines_json() {
     Json list = Json::array();
     for (const EngineInfo& engine : engines())
-        list.push_back({{"name", engine.name},
-                        {"doc", engine.doc},
-                        {"default", engine.engine == EvaluatorOptions{}.engine}});
+        list.push_back(
+            {{"name", engine.name}, {"doc", engine.doc}, {"default", &engine == &engines().back()}});
     return list;
 }
 
@@ -80,7 +79,7 @@ std::string engines_text() {
     std::string out;
     for (const EngineInfo& engine : engines())
         out += fmt::format("{:<10} {}{}\n", engine.name, engine.doc,
-                           engine.engine == EvaluatorOptions{}.engine ? " (default)" : "");
+                           &engine == &engines().back() ? " (default)" : "");
     out += fmt::format("instructions up to {}; {} native code\n", name_of(machine_isa()),
                        NativeCode<double>::is_available() ? "with" : "without");
     return out;

@@ -25,11 +25,12 @@ bool has_extension(const std::string& path, std::string_view extension) {
     return lower_case(std::filesystem::path(path).extension().string()) == extension;
 }
 
-/// The engine of that name; an unknown one is printed.
+/// The engine of that name, without a name the default one; an unknown name is printed.
 std::optional<EngineInfo> choose_engine(const std::optional<std::string>& name) {
+    if (!name) return engines().back();
     std::vector<std::string_view> names;
     for (const EngineInfo& info : engines()) {
-        if (name ? info.name == *name : info.engine == EvaluatorOptions{}.engine) return info;
+        if (info.name == *name) return info;
         names.push_back(info.name);
     }
     print_error(fmt::format("--engine: this program has no engine `{}`", *name));
@@ -42,6 +43,7 @@ bool read_running_options(const ModelOptions& options, PreparedModel& out) {
     const auto engine = choose_engine(options.engine);
     if (!engine) return false;
     out.evaluator.engine = engine->engine;
+    out.evaluator.compile_at_once = options.engine.has_value();
     out.engine = engine->name;
     if (options.max_steps) {
         const auto steps = parse_integer(*options.max_steps, 1, std::int64_t{1} << 53);

@@ -39,8 +39,9 @@ inline Outcome evaluate(const std::string& text, const std::string& object, std:
             out.ok = true;
             out.has_regions = lowered->has_regions;
             out.structural = lowered->structural;
-            auto evaluator = make_evaluator(lowered->field,
-                                            {.engine = engine, .attributes = true, .registers = registers});
+            auto evaluator = make_evaluator(
+                lowered->field,
+                {.engine = engine, .compile_at_once = true, .attributes = true, .registers = registers});
             x.resize(static_cast<std::size_t>(lowered->field.coordinates), 0.0);
             std::vector<const double*> coordinates;
             for (const double& value : x) coordinates.push_back(&value);

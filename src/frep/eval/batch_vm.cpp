@@ -6,6 +6,7 @@
 #include <cstring>
 #include <vector>
 
+#include "frep/base/result.h"
 #include "frep/eval/batch_frame.h"
 #include "frep/eval/batch_other.h"
 #include "frep/eval/float_control.h"
@@ -202,10 +203,32 @@ class BatchVm<Real>::Machine {
     /// Derivatives along coordinates first .. first + 2.
     void gradients_of(const ClauseTape& tape, std::span<const Real* const> coordinates, const Pass& pass,
                       Real* values, std::span<Real* const> partials) {
-        const std::size_t lanes = code_.lanes, element = 4 * lanes;
+        // copies of as many numbers as the compiler knows are moves, others are calls
+        switch (code_.lanes) {
+            case 4:
+                return gradients_in<4>(tape, coordinates, pass, values, partials);
+            case 8:
+                return gradients_in<8>(tape, coordinates, pass, values, partials);
+            default:
+                FREP_CHECK(code_.lanes == 16);
+                return gradients_in<16>(tape, coordinates, pass, values, partials);
+        }
+    }
+
+    template <std::size_t lanes>
+    void gradients_in(const ClauseTape& tape, std::span<const Real* const> coordinates, const Pass& pass,
+                      Real* values, std::span<Real* const> partials) {
+        constexpr std::size_t element = 4 * lanes;
         const std::size_t elements = whole_elements(pass.points) / lanes;
         frame_.numbers = elements * element;
         frame_.last_out = nullptr;
+        const auto copy = [](const Real* from, std::size_t some, Real* to) {
+            if (some == lanes) {
+                std::memcpy(to, from, lanes * sizeof(Real));
+            } else {
+                std::copy_n(from, some, to);
+            }
+        };
         for (std::size_t i = 0; i < coordinates_; ++i) {
             if (!coordinates[i]) continue;
             Real* to = copies_ + i * table_->stride;
@@ -213,11 +236,10 @@ class BatchVm<Real>::Machine {
             const Real* const from = coordinates[i] + pass.start;
             for (std::size_t p = 0; p < pass.points; p += lanes, to += element) {
                 const std::size_t some = std::min(lanes, pass.points - p);
-                std::copy_n(from + p, some, to);
+                copy(from + p, some, to);
                 std::fill(to + some, to + lanes, from[pass.points - 1]);
-                std::fill(to + lanes, to + element, Real(0));
-                if (i >= pass.first && i < pass.first + 3)
-                    std::fill_n(to + (1 + i - pass.first) * lanes, lanes, Real(1));
+                for (std::size_t k = 0; k < 3; ++k)
+                    std::fill_n(to + (1 + k) * lanes, lanes, i == pass.first + k ? Real(1) : Real(0));
             }
         }
         code_.gradients(frame_);
@@ -226,9 +248,9 @@ class BatchVm<Real>::Machine {
         for (std::size_t e = 0; e < elements; ++e) {
             const Real* const at = from + (e * element & mask);
             const std::size_t some = std::min(lanes, pass.points - e * lanes), to = pass.start + e * lanes;
-            std::copy_n(at, some, values + to);
+            copy(at, some, values + to);
             for (std::size_t i = pass.first; i < partials.size() && i < pass.first + 3; ++i)
-                std::copy_n(at + (1 + i - pass.first) * lanes, some, partials[i] + to);
+                copy(at + (1 + i - pass.first) * lanes, some, partials[i] + to);
         }
     }
 

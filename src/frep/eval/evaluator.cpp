@@ -4,15 +4,17 @@
 #include <array>
 #include <string>
 
+#include "frep/eval/jit_evaluator.h"
 #include "frep/eval/reference.h"
 #include "frep/eval/vm_evaluator.h"
 
 namespace frep {
 namespace {
 
-constexpr std::array<EngineInfo, 2> engine_table = {{
+constexpr std::array<EngineInfo, 3> engine_table = {{
     {Engine::reference, "reference", "node by node in double precision: slow, the oracle of all others"},
-    {Engine::vm, "vm", "register tape over batches of lanes"},
+    {Engine::vm, "vm", "tapes over batches of lanes, in the widest registers of the machine"},
+    {Engine::jit, "jit", "the vm, and machine code for values where many points are asked for"},
 }};
 
 /// Cells of one region; more need too much memory for a single point.
@@ -66,10 +68,12 @@ Result<std::unique_ptr<Evaluator>> make_evaluator(const Field& field, const Eval
             return make_reference(bound, options);
         case Engine::vm:
             return make_vm(bound, options);
+        case Engine::jit:
+            return make_jit(bound, options);
     }
     FREP_CHECK(false);
 }
 
-std::span<const EngineInfo> engines() { return engine_table; }
+std::span<const EngineInfo> engines() { return std::span(engine_table).first(has_jit() ? 3 : 2); }
 
 }  // namespace frep

@@ -19,11 +19,13 @@ struct ClauseTape;
 
 enum class Engine {
     reference,  ///< node by node in double: slow, obvious, the oracle
-    vm,         ///< register tape over batches of lanes
+    vm,         ///< tapes over batches of lanes
+    jit,        ///< the vm, and native code for values where it pays; the vm where there is none
 };
 
 struct EvaluatorOptions {
-    Engine engine = Engine::vm;
+    Engine engine = Engine::jit;
+    bool compile_at_once = false;        ///< jit: before the first point, whether it pays or not
     bool attributes = false;             ///< also compute the attributes s[1..k]
     std::int64_t max_steps = 1'000'000;  ///< loop steps at one point; more make the point undefined
     int registers = 0;                   ///< vm: registers to allocate; 0 = the engine's choice, at least 3
@@ -56,7 +58,8 @@ class Evaluator {
 /// An evaluator of `field`. Errors: over_limit when the tape would exceed the memory limit.
 Result<std::unique_ptr<Evaluator>> make_evaluator(const Field& field, const EvaluatorOptions& options = {});
 
-/// Engine names for `--engine`, in the order of `frep info --engines`.
+/// Engine names for `--engine`, in the order of `frep info --engines`: those that this machine has, the
+/// default last.
 struct EngineInfo {
     Engine engine;
     std::string_view name;

@@ -133,7 +133,7 @@ void FunctionWriter::release(ValueId v) {
         home.reg = nowhere;
     }
     if (home.slot != no_slot) {
-        free_slots_.push_back(home.slot);
+        leaving_slots_.push_back(home.slot);
         home.slot = no_slot;
     }
 }
@@ -243,7 +243,11 @@ void FunctionWriter::write() {
     find_uses();
     enter();
     check_domain();
-    for (current_ = 0; current_ < order_.size(); ++current_) write_step(order_[current_]);
+    for (current_ = 0; current_ < order_.size(); ++current_) {
+        write_step(order_[current_]);
+        free_slots_.insert(free_slots_.end(), leaving_slots_.begin(), leaving_slots_.end());
+        leaving_slots_.clear();
+    }
     store_targets();
     advance();
     leave();

@@ -197,6 +197,7 @@ class FunctionWriter {
     std::uint32_t pinned_ = 0;   ///< vector registers that hold constants throughout
     std::uint32_t current_ = 0;  ///< place of the step under way
     std::vector<std::int32_t> free_slots_;
+    std::vector<std::int32_t> leaving_slots_;  ///< free after the step under way, which may still read them
     std::int32_t slots_ = 0;
     std::vector<Rare> rare_;      ///< written behind the loop
     std::size_t call_area_ = 0;   ///< vectors

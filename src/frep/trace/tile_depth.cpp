@@ -3,6 +3,7 @@
 #include "frep/trace/tile_depth.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 
@@ -21,18 +22,19 @@ constexpr int most_levels = 8;  ///< of tiles: 8, 16, 64, 256, 1024, ...
 constexpr std::size_t leaf_columns = leaf_side * leaf_side;
 constexpr std::size_t most_columns = leaf_columns * tile_lanes;
 
-/// A cube of voxels; the edges of the picture may cut it. z counts from the back.
+/// A cube of voxels; the edges of the picture may cut it. z counts from the back. (Not set at first: arrays
+/// of tiles stand in every call.)
 struct VoxelTile {
-    int x = 0, y = 0, z = 0, level = 0;
+    int x, y, z, level;
 };
 
 /// Pixels under a tile without a hit, by tile of one level.
 struct Footprints {
-    int side = 0, across = 0;
+    int shift = 0, across = 0;  ///< a side is 1 << shift pixels
     std::vector<int> left;
 
-    void set(int tile_side, int width, int height) {
-        side = tile_side;
+    void set(int side, int width, int height) {
+        shift = std::countr_zero(static_cast<unsigned>(side));
         across = (width + side - 1) / side;
         const int down = (height + side - 1) / side;
         left.resize(static_cast<std::size_t>(across) * static_cast<std::size_t>(down));
@@ -42,7 +44,7 @@ struct Footprints {
                     std::min(side, width - x * side) * std::min(side, height - y * side);
     }
     int& at(const VoxelTile& tile) {
-        return left[static_cast<std::size_t>(tile.y / side * across + tile.x / side)];
+        return left[static_cast<std::size_t>((tile.y >> shift) * across + (tile.x >> shift))];
     }
 };
 
@@ -203,17 +205,24 @@ class Worker {
         for (int k = 0; k < lanes.count; ++k) {
             if ((group >> k & 1u) == 0) continue;
             bottom = z_of(lanes, k);
-            add_rays(lanes.tiles[static_cast<std::size_t>(k)], k);
+            const VoxelTile& leaf = lanes.tiles[static_cast<std::size_t>(k)];
+            if (!is_hidden(leaf)) march_.add(pixels_of(leaf));
         }
-        if (march_.rays() == 0) return;
+        const std::size_t rays = march_.rays();
+        if (rays == 0) return;
         // the voxels in front are outside; a refinement starts from their values
         const int front = bottom + leaf_side, last = space_->options->layers - 1;
-        march_.run(tape, std::min(front, last), bottom, front <= last);
-        for (std::size_t i = 0; i < march_.hit_count(); ++i)
-            write(march_.hit(i).pixel, march_.hit(i).layer, march_.height(i), march_.normal(i));
-        for (int k = 0; k < lanes.count; ++k)
-            if (const int hits = march_.hits_of(k); hits > 0)
-                space_->count_hits(lanes.tiles[static_cast<std::size_t>(k)], hits);
+        DepthPicture& out = *space_->out;
+        march_.run(tape, std::min(front, last), bottom, front <= last,
+                   {out.layers.data(), out.z.data(), out.normals.data()->data()});
+        if (march_.rays() == rays) return;
+        for (int k = 0; k < lanes.count; ++k) {
+            if ((group >> k & 1u) == 0) continue;
+            const VoxelTile& leaf = lanes.tiles[static_cast<std::size_t>(k)];
+            const int open = march_.rays() == 0 ? 0 : march_.count_open(pixels_of(leaf));
+            if (const int hits = space_->footprints[0].at(leaf) - open; hits > 0)
+                space_->count_hits(leaf, hits);
+        }
     }
 
   private:
@@ -246,28 +255,16 @@ class Worker {
         out.normals[pixel] = normal;
     }
 
-    /// The rays of a leaf that have met nothing yet.
-    void add_rays(const VoxelTile& leaf, int lane) {
-        const int left = space_->footprints[0].at(leaf);
-        if (left == 0) return;
-        const int right = std::min(leaf.x + leaf_side, space_->options->width);
-        const int below = std::min(leaf.y + leaf_side, space_->options->height);
-        const bool all = left == (right - leaf.x) * (below - leaf.y);
-        for (int y = leaf.y; y < below; ++y) {
-            const std::size_t row = space_->pixel(0, y);
-            if (all) {
-                march_.add_row(space_->x.rounded.data() + leaf.x,
-                               space_->y.rounded[static_cast<std::size_t>(y)],
-                               static_cast<std::size_t>(right - leaf.x), space_->pixel(leaf.x, y), lane);
-                continue;
-            }
-            for (int x = leaf.x; x < right; ++x) {
-                const auto at = static_cast<std::size_t>(x);
-                if (space_->out->layers[row + at] == 0)
-                    march_.add(space_->x.rounded[at], space_->y.rounded[static_cast<std::size_t>(y)],
-                               row + at, lane);
-            }
-        }
+    march::PixelBlock<Real> pixels_of(const VoxelTile& leaf) const {
+        const Space<Real>& s = *space_;
+        const std::size_t first = s.pixel(leaf.x, leaf.y);
+        return {s.out->layers.data() + first,
+                first,
+                s.pixel(0, 1),
+                s.x.rounded.data() + leaf.x,
+                s.y.rounded.data() + leaf.y,
+                std::min(leaf_side, s.options->width - leaf.x),
+                std::min(leaf_side, s.options->height - leaf.y)};
     }
 
     Space<Real>* space_ = nullptr;
@@ -357,10 +354,21 @@ void DepthPainter<Real>::Workers::paint_unpruned(const ClauseTape& tape, const J
 
 template <class Real>
 void DepthPainter<Real>::Workers::finish(DepthPicture& out) const {
-    for (std::size_t p = 0; p < out.layers.size(); ++p) {
-        if (out.layers[p] != 0) continue;
-        out.z[p] = std::numeric_limits<float>::quiet_NaN();
-        out.normals[p] = {0, 0, 0};
+    const Footprints& leaves = space.footprints[0];
+    for (std::size_t leaf = 0; leaf < leaves.left.size(); ++leaf) {
+        if (leaves.left[leaf] == 0) continue;
+        const int x = static_cast<int>(leaf) % leaves.across * leaf_side;
+        const int y = static_cast<int>(leaf) / leaves.across * leaf_side;
+        const int some = std::min(leaf_side, out.width - x), rows = std::min(leaf_side, out.height - y);
+        const bool empty = leaves.left[leaf] == some * rows;
+        for (int row = y; row < y + rows; ++row) {
+            const std::size_t first = space.pixel(x, row), end = first + static_cast<std::size_t>(some);
+            for (std::size_t p = first; p < end; ++p) {
+                if (!empty && out.layers[p] != 0) continue;
+                out.z[p] = std::numeric_limits<float>::quiet_NaN();
+                out.normals[p] = {0, 0, 0};
+            }
+        }
     }
     out.tile_operations = out.point_operations = 0;
     for (const auto& worker : pool.all()) {

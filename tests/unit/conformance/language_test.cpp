@@ -71,7 +71,7 @@ TEST_CASE("language cases of the old interpreter") {
     while (std::getline(file, line)) {
         if (line.empty()) continue;
         const json test = json::parse(line);
-        for (Engine engine : {Engine::reference, Engine::vm}) check_case(test, engine);
+        for (Engine engine : {Engine::reference, Engine::vm, Engine::jit}) check_case(test, engine);
         ++count;
     }
     CHECK(count >= 170);

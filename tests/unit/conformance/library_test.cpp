@@ -62,8 +62,8 @@ TEST_CASE("library values of the old interpreter") {
         REQUIRE_MESSAGE(model.ok(), render(model.diagnostics(), model.source()));
         const auto field = model.field();
         REQUIRE(static_cast<bool>(field));
-        for (Engine engine : {Engine::reference, Engine::vm}) {
-            auto evaluator = make_evaluator(*field, {.engine = engine});
+        for (Engine engine : {Engine::reference, Engine::vm, Engine::jit}) {
+            auto evaluator = make_evaluator(*field, {.engine = engine, .compile_at_once = true});
             REQUIRE(static_cast<bool>(evaluator));
             for (const Sample& sample : samples) {
                 std::vector<const double*> coordinates;

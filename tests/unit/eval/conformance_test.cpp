@@ -122,6 +122,7 @@ struct Engines {
     explicit Engines(const Field& field) {
         all.push_back(engine(field, Engine::reference));
         for (const int registers : {0, 3, 4}) all.push_back(engine(field, Engine::vm, registers));
+        all.push_back(engine(field, Engine::jit));
         for (const auto& evaluator : all) REQUIRE(evaluator);
     }
 };

@@ -45,6 +45,7 @@ inline std::unique_ptr<frep::Evaluator> engine(const frep::Field& field, frep::E
                                                int registers = 0, std::int64_t max_steps = 1'000'000) {
     frep::EvaluatorOptions options;
     options.engine = which;
+    options.compile_at_once = true;
     options.attributes = !field.attributes.empty();
     options.registers = registers;
     options.max_steps = max_steps;

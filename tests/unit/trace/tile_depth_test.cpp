@@ -8,6 +8,7 @@
 #include <cstring>
 
 #include "frep/eval/evaluator.h"
+#include "frep/eval/isa.h"
 #include "unit/trace/tile_models.h"
 
 using namespace frep;
@@ -119,6 +120,22 @@ TEST_CASE("depth pictures are the same for any number of threads, and after othe
             REQUIRE(static_cast<bool>(painter.paint(model.tape, space, options, job, again)));
             CHECK(same(one, again));
             CHECK(one.point_operations == again.point_operations);
+        }
+    }
+}
+
+TEST_CASE("depth pictures are the same for every instruction set") {
+    for (const TileModel& model : tile_models()) {
+        CAPTURE(model.name);
+        const DepthPictureOptions options = sized(71, 90, 120);  // 71: tiles that the edge cuts
+        set_isa_limit(Isa::sse2);
+        const DepthPicture floats = picture<float>(model.tape, options);
+        const DepthPicture doubles = picture<double>(model.tape, options);
+        for (const Isa isa : {Isa::avx2, Isa::avx512}) {
+            set_isa_limit(isa);
+            CAPTURE(name_of(machine_isa()));
+            CHECK(same(floats, picture<float>(model.tape, options)));
+            CHECK(same(doubles, picture<double>(model.tape, options)));
         }
     }
 }
