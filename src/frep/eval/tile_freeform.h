@@ -45,8 +45,7 @@ void bezier_hull(const double* values, const int* size, const Shares* shares, V&
         for (int j = 0; j < size[1]; ++j) {
             for (int n = 0; n < size[2]; ++n) {
                 V sum = all(0.0f);
-                for (int m = 0; m < size[1]; ++m)
-                    sum = sum + shares[1].share[j][m] * slice[m * size[2] + n];
+                for (int m = 0; m < size[1]; ++m) sum = sum + shares[1].share[j][m] * slice[m * size[2] + n];
                 line[n] = sum;
             }
             for (int k = 0; k < size[2]; ++k) {
@@ -93,8 +92,8 @@ __attribute__((noinline)) bool bezier_range(const Job& job, Reader clause, Row& 
             for (int n = 1; n < size[i]; ++n) weight = weight * step;
         }
         const M tame_weight = less(weight, all(1e25f));
-        const Shares shares[3] = {{from[0], to[0], size[0]}, {from[1], to[1], size[1]},
-                                  {from[2], to[2], size[2]}};
+        const Shares shares[3] = {
+            {from[0], to[0], size[0]}, {from[1], to[1], size[1]}, {from[2], to[2], size[2]}};
         V lo, hi;
         bezier_hull(block.items + 3, size, shares, lo, hi);
         const V lost = weight * all(static_cast<float>(2 * degrees + 8) * place);

@@ -60,8 +60,8 @@ struct Job {
     const std::uint32_t* operands;  ///< of the clauses that list them
     const Block* blocks;            ///< a clause of kind block has the number of its own + 1, or 0, in in[1]
     NoiseLattice lattice;
-    std::uint32_t constants;        ///< rows below are constants
-    std::uint32_t first_value;      ///< clause i writes row first_value + i
+    std::uint32_t constants;    ///< rows below are constants
+    std::uint32_t first_value;  ///< clause i writes row first_value + i
     Row* rows;
     std::uint32_t* flags;
     /// Computes the range of clause number `clause` in the boxes of `lanes`, flags included.

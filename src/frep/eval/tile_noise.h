@@ -22,8 +22,8 @@ struct Ends {
 struct CellParts {
     int count = 0;
     int box[16];
-    alignas(64) float from[3][16], to[3][16];   ///< offsets in 0..1
-    alignas(64) float gradient[8][3][16];       ///< of the corners
+    alignas(64) float from[3][16], to[3][16];  ///< offsets in 0..1
+    alignas(64) float gradient[8][3][16];      ///< of the corners
 };
 
 /// a interpolated with b by weights s.lo .. s.hi.

@@ -12,11 +12,12 @@ namespace frep::tile {
 namespace {
 
 constexpr double far_away = 1e6;  ///< squares up to there are far from overflow
+constexpr double steepest = 1e3;  ///< widths of Cauchy kernels whose squares there do not overflow
 
 /// The sum of the terms so far, in each box.
 struct Total {
     Row range;
-    alignas(64) float size[16];   ///< of the terms, added up
+    alignas(64) float size[16];  ///< of the terms, added up
     alignas(64) float least_term[16];
     std::size_t terms = 0;
 
@@ -84,9 +85,7 @@ inline V metaball_of(V q2) {
     const V q = root(q2), rest = all(1.0f) - q;
     return pick(less(q, all(1.0f / 3)), all(1.0f) - all(3.0f) * q2, all(1.5f) * rest * rest);
 }
-inline V soft_of(V q) {
-    return all(1.0f) - q * (all(22.0f / 9) - q * (all(17.0f / 9) - q * all(4.0f / 9)));
-}
+inline V soft_of(V q) { return all(1.0f) - q * (all(22.0f / 9) - q * (all(17.0f / 9) - q * all(4.0f / 9))); }
 
 /// One term at squared distances near .. far; false where it has no form in lanes.
 bool radial_term(Op op, const double* item, V near, V far, int c, Total& total) {
@@ -99,6 +98,7 @@ bool radial_term(Op op, const double* item, V near, V far, int c, Total& total) 
         return true;
     }
     if (op == Op::conv_point) {
+        if (!(item[3] >= -steepest && item[3] <= steepest)) return false;
         const auto s2 = static_cast<float>(item[3] * item[3]);
         const V p = one + all(s2) * far, q = one + all(s2) * near;
         total.add(c, all(1 - 16 * place) / (p * p), all(1 + 16 * place) / (q * q));
@@ -117,7 +117,8 @@ bool radial_term(Op op, const double* item, V near, V far, int c, Total& total) 
     }
     const V slack = all(bell_slack), end = all(bell_end), zero = all(0.0f);
     const V x = least(far, end), y = least(near, end);
-    const V lo = op == Op::soft ? soft_of(x) : metaball_of(x), hi = op == Op::soft ? soft_of(y) : metaball_of(y);
+    const V lo = op == Op::soft ? soft_of(x) : metaball_of(x),
+            hi = op == Op::soft ? soft_of(y) : metaball_of(y);
     const V bottom = pick(less(far, end), lo - slack, zero), top = pick(less(near, end), hi + slack, zero);
     if (op == Op::soft)
         total.add(c, bottom, top);
@@ -190,6 +191,11 @@ inline LineTerm line_term(const double* item) {
     return t;
 }
 
+/// True for a segment whose ends binary32 places well within the width of the kernel.
+inline bool is_ordinary(const LineTerm& t) {
+    return t.s > 1e-6f && t.s <= static_cast<float>(steepest) && t.s * t.length < 1e5f;
+}
+
 /// The integral over a segment for points at `off` from its middle plane and squared distance rho2 from its
 /// line; `slack`: more than its error. atan(sx/p) + atan(s(l-x)/p) is one angle.
 inline V line_value(const LineTerm& t, V off, V rho2, V& slack) {
@@ -206,7 +212,7 @@ inline V line_value(const LineTerm& t, V off, V rho2, V& slack) {
 
 /// Centres and half sides of boxes.
 struct Middles {
-    Row centre_and_half[3];  ///< lo: the centre, hi: half the side, rounded up
+    Row centre_and_half[3];       ///< lo: the centre, hi: half the side, rounded up
     alignas(64) float reach[16];  ///< half the diagonal
 
     explicit Middles(const Row* const* at) {
@@ -269,7 +275,7 @@ inline Beside beside(const LineTerm& t, const Middles& boxes, int c) {
 /// The closed form at both ends, cut to the length times the kernel there.
 inline void line_range(const LineTerm& t, const Beside& b, int c, Total& total) {
     const auto kernel = [&](V off, V rho2) {
-        const V beyond = off, k = all(1.0f) + all(t.s2) * (rho2 + beyond * beyond);
+        const V k = all(1.0f) + all(t.s2) * (rho2 + off * off);
         return all(t.length) / (k * k);
     };
     V slack_low, slack_high;
@@ -309,7 +315,7 @@ bool summed(const Job& job, Reader clause, Row& r, std::uint32_t& f, unsigned& b
         if (lines) {
             const LineTerm term = line_term(item);
             if (term.length == 0) continue;
-            if (!(term.s > 1e-6f)) return false;
+            if (!is_ordinary(term)) return false;
             for (int c = 0; c < 16; c += width) line_range(term, beside(term, middles, c), c, total);
             continue;
         }

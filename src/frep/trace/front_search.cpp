@@ -11,7 +11,7 @@ constexpr std::size_t small_bundle = 64;  ///< rays that are proved one by one
 constexpr double short_bundle = 4;        ///< its length, in spacings
 constexpr std::size_t small_dear_bundle = 16;
 constexpr double short_dear_bundle = 1;
-constexpr int parts_along = 16;           ///< of a bundle that is long for its width
+constexpr int parts_along = 16;  ///< of a bundle that is long for its width
 constexpr std::size_t parts_across = 4;
 
 Box3 box_between(const Ray& ray, double begin, double end) {
@@ -130,15 +130,21 @@ void FrontSearch::prove(const Bundle& bundle) {
     finish(*bundle.field);
 }
 
-/// The first changes of sign between samples within a small bundle.
+/// The first changes of sign between samples within a small bundle, on the rays that are not proved empty.
 void FrontSearch::take_samples(const Bundle& bundle) {
-    brackets_.clear(), found_.clear(), runs_.clear();
+    brackets_.clear(), found_.clear(), runs_.clear(), boxes_.clear();
     for (std::size_t i = bundle.first; i < bundle.first + bundle.count; ++i) {
         if (!is_open(i, bundle)) continue;
         const double begin = std::max(bundle.begin, reaches_[i].begin);
         const double end = std::min(bundle.end, reaches_[i].end);
         runs_.push_back({i, begin, end, samples_within(begin, end, resolution_)});
+        boxes_.push_back(box_between(rays_[i], begin, end));
     }
+    ranges_.resize(boxes_.size());
+    bundle.field->ranges(boxes_, ranges_);
+    std::size_t next = 0;
+    std::erase_if(runs_, [&](const SampledRun&) { return !ranges_[next++].can_be_inside; });
+    if (runs_.empty()) return;
     find_crossings(rays_, *bundle.field, runs_, columns_, [&](const SampledRun& run, const Bracket& found) {
         if (found.in > run.begin) {
             brackets_.push_back(found);
