@@ -10,6 +10,7 @@
 #include "frep/eval/prune_emit.h"
 #include "frep/eval/prune_general.h"
 #include "frep/eval/tile_kernels.h"
+#include "frep/field/kernels/noise.h"
 
 namespace frep {
 namespace {
@@ -62,12 +63,24 @@ void round_outward(const double* lo, const double* hi, tile::Row& row) {
     }
 }
 
+/// The table of the noise, its gradients as binary32.
+tile::NoiseLattice noise_table() {
+    static const auto gradients = [] {
+        std::array<float, 3 * 256> table{};
+        for (std::size_t i = 0; i < table.size(); ++i)
+            table[i] = static_cast<float>(kernels::noise_detail::lattice().gradient[i / 3][i % 3]);
+        return table;
+    }();
+    return {kernels::noise_detail::lattice().permutation, gradients.data()};
+}
+
 }  // namespace
 
 struct Pruner::Workspace {
     const tile::Kernels* kernels = nullptr;
     std::shared_ptr<const ClauseData> data;  ///< whose constants are in the rows
     Rows rows;
+    std::vector<tile::Block> blocks;
     std::vector<std::uint32_t> flags;
     std::vector<tile::Wanted> wanted;
     std::vector<tile::Record> records;
@@ -95,6 +108,8 @@ void Pruner::Workspace::prepare(const ClauseTape& of) {
     if (records.size() < of.clauses.size()) records.resize(of.clauses.size());
     if (!moved && data == of.data) return;
     data = of.data;
+    blocks.clear();
+    for (const std::span<const double> block : data->blocks) blocks.push_back({block.data(), block.size()});
     // the clauses clear what is wanted of their rows; for constants and coordinates nobody reads it
     std::fill(wanted.begin(), wanted.end(), tile::Wanted{});
     for (std::size_t i = 0; i < data->constants.size(); ++i) {
@@ -135,6 +150,8 @@ tile::Job Pruner::Workspace::job() {
     job.clauses = tape->clauses.data();
     job.clause_count = static_cast<std::uint32_t>(tape->clauses.size());
     job.operands = tape->operands.data();
+    job.blocks = blocks.data();
+    job.lattice = noise_table();
     job.constants = static_cast<std::uint32_t>(data->constants.size());
     job.first_value = data->first_value_row();
     job.rows = rows.data();

@@ -4,8 +4,11 @@
 #pragma once
 
 #include "frep/eval/tile_blends.h"
+#include "frep/eval/tile_freeform.h"
 #include "frep/eval/tile_functions.h"
+#include "frep/eval/tile_noise.h"
 #include "frep/eval/tile_smooth.h"
+#include "frep/eval/tile_sums.h"
 
 namespace frep::tile {
 namespace {
@@ -155,7 +158,10 @@ void forward(const Job& job) {
         std::uint32_t f = 0;
         unsigned bad = 0;
         if (clause.listed()) {
-            done = blended(job, clause, r, f, bad);
+            if (clause.op() == Op::bezier_volume)
+                done = bezier_range(job, clause, r, f, bad);
+            else
+                done = blended(job, clause, r, f, bad) || summed(job, clause, r, f, bad);
         } else {
             if (clause.count() == 2) {
                 f = job.flags[clause.in(0)] | job.flags[clause.in(1)];
@@ -166,6 +172,9 @@ void forward(const Job& job) {
                 done = one_operand(clause, job.rows[clause.in(0)], r, f, bad);
             } else if (clause.op() == Op::select) {
                 f = selection(job, clause, r);
+                done = true;
+            } else if (clause.op() == Op::lattice_noise) {
+                bad = noise_of(job, clause, r, f);
                 done = true;
             }
         }

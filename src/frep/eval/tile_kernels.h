@@ -40,14 +40,28 @@ struct Wanted {
     float inner_margin = 0;   ///< the same for the operands of the smooth set operation
 };
 
+/// A data block of constants.
+struct Block {
+    const double* items;
+    std::size_t count;
+};
+
+/// The table of lattice noise (field/kernels/noise.h): 256 numbers, and 256 gradients of three.
+struct NoiseLattice {
+    const std::uint8_t* permutation;
+    const float* gradient;
+};
+
 /// A pass over a tape. Flags of a row: bit k = box k may be undefined, bit 16 + k = surely is (its bounds
 /// then say nothing).
 struct Job {
     const void* clauses;  ///< Clause, see clause_tape.h
     std::uint32_t clause_count;
     const std::uint32_t* operands;  ///< of the clauses that list them
-    std::uint32_t constants;        ///< rows below are constants
-    std::uint32_t first_value;      ///< clause i writes row first_value + i
+    const Block* blocks;            ///< a clause of kind block has the number of its own + 1, or 0, in in[1]
+    NoiseLattice lattice;
+    std::uint32_t constants;    ///< rows below are constants
+    std::uint32_t first_value;  ///< clause i writes row first_value + i
     Row* rows;
     std::uint32_t* flags;
     /// Computes the range of clause number `clause` in the boxes of `lanes`, flags included.

@@ -10,10 +10,6 @@ namespace {
 constexpr int cells_a_run = 4;
 constexpr double samples_a_cell = 2;
 
-double place(const Stretch& run, std::size_t n, std::size_t samples) {
-    return run.begin + (run.end - run.begin) * (static_cast<double>(n) / static_cast<double>(samples));
-}
-
 }  // namespace
 
 void FirstHit::trace(std::span<const Ray> rays, std::span<Hit> hits) {
@@ -47,7 +43,7 @@ void FirstHit::sample(std::span<const Ray> rays, std::span<Hit> hits) {
     walkers_.clear();
     for (std::size_t i = 0; i < rays.size(); ++i)
         if (reaches_[i].begin < reaches_[i].end)
-            walkers_.push_back({i, CellWalk(grid_, rays[i], {reaches_[i].begin, reaches_[i].end}), {}, 0});
+            walkers_.push_back({i, CellWalk(grid_, rays[i], {reaches_[i].begin, reaches_[i].end}), {}});
     brackets_.clear();
     while (!walkers_.empty()) {
         std::erase_if(walkers_, [&](Walker& w) { return !w.walk.next(grid_, cells_a_run, w.run); });
@@ -64,32 +60,30 @@ void FirstHit::sample(std::span<const Ray> rays, std::span<Hit> hits) {
         if (hit.is_hit()) hit.gradient = columns_.gradient(next++);
 }
 
-/// The first change of sign in the present run of each walker, and solids that begin where it begins.
+/// The first change of sign in the present run of each walker, and solids that begin where it begins. Walkers
+/// that found something are done.
 void FirstHit::sample_run(std::span<const Ray> rays, std::span<Hit> hits) {
-    columns_.clear();
-    for (Walker& w : walkers_) {
-        const double cells = (w.run.end - w.run.begin) / grid_.step();
-        w.samples = static_cast<std::size_t>(std::max(1.0, __builtin_ceil(cells * samples_a_cell)));
-        for (std::size_t n = 0; n <= w.samples; ++n)
-            columns_.add(at(rays[w.ray], place(w.run, n, w.samples)));
-    }
-    const double* f = columns_.values(field_).data();
-    std::erase_if(walkers_, [&](const Walker& w) {
-        const double* own = f;
-        f += w.samples + 1;
-        std::size_t n = 0;
-        while (n <= w.samples && !(own[n] >= 0)) ++n;
-        if (n > w.samples) return false;
-        if (n == 0) {
-            // The solid begins at the clip box, or the root lies a rounding error before this run.
-            const bool is_entry = w.run.begin <= reaches_[w.ray].begin;
-            hits[w.ray].t = w.run.begin;
-            hits[w.ray].cut_by = is_entry ? reaches_[w.ray].side : std::uint8_t{0};
-        } else {
-            brackets_.push_back(
-                {w.ray, place(w.run, n - 1, w.samples), place(w.run, n, w.samples), own[n - 1], own[n], 0});
+    runs_.clear();
+    for (const Walker& w : walkers_)
+        runs_.push_back({w.ray, w.run.begin, w.run.end,
+                         samples_within(w.run.begin, w.run.end, grid_.step() / samples_a_cell)});
+    found_.clear();
+    find_crossings(rays, field_, runs_, columns_, [&](const SampledRun& run, const Bracket& found) {
+        found_.push_back(run.ray);
+        if (found.in > run.begin) {
+            brackets_.push_back(found);
+            return;
         }
-        return true;
+        // The solid begins at the clip box, or the root lies a rounding error before this run.
+        const bool is_entry = run.begin <= reaches_[run.ray].begin;
+        hits[run.ray].t = run.begin;
+        hits[run.ray].cut_by = is_entry ? reaches_[run.ray].side : std::uint8_t{0};
+    });
+    std::size_t next = 0;  // both are in the order of the rays
+    std::erase_if(walkers_, [&](const Walker& w) {
+        const bool is_done = next < found_.size() && found_[next] == w.ray;
+        if (is_done) ++next;
+        return is_done;
     });
 }
 

@@ -34,7 +34,6 @@ class FirstHit {
         std::size_t ray = 0;
         CellWalk walk;
         Stretch run;
-        std::size_t samples = 0;  ///< in the run, without its first point
     };
 
     const DistanceGrid& grid_;
@@ -43,7 +42,9 @@ class FirstHit {
     bool by_proof_;
     std::vector<Reach> reaches_;
     std::vector<Walker> walkers_;
+    std::vector<SampledRun> runs_;
     std::vector<Bracket> brackets_;
+    std::vector<std::size_t> found_;  ///< rays
     RayColumns columns_;
 };
 

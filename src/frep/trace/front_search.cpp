@@ -9,7 +9,9 @@ namespace {
 
 constexpr std::size_t small_bundle = 64;  ///< rays that are proved one by one
 constexpr double short_bundle = 4;        ///< its length, in spacings
-constexpr int parts_along = 16;           ///< of a bundle that is long for its width
+constexpr std::size_t small_dear_bundle = 16;
+constexpr double short_dear_bundle = 1;
+constexpr int parts_along = 16;  ///< of a bundle that is long for its width
 constexpr std::size_t parts_across = 4;
 
 Box3 box_between(const Ray& ray, double begin, double end) {
@@ -23,7 +25,7 @@ Box3 box_between(const Ray& ray, double begin, double end) {
 void FrontSearch::search(std::span<const Ray> rays, std::span<const Reach> reaches, std::span<Hit> hits) {
     rays_ = rays, reaches_ = reaches, hits_ = hits;
     std::fill(hits.begin(), hits.end(), Hit{});
-    Bundle all{0, rays.size(), 0, 0, &field_, nullptr};
+    Bundle all{0, rays.size(), 0, 0, &field_, nullptr, field_.has_dear_ranges()};
     bool is_any = false;
     for (const Reach& reach : reaches) {
         if (!(reach.begin < reach.end)) continue;
@@ -36,11 +38,19 @@ void FrontSearch::search(std::span<const Ray> rays, std::span<const Reach> reach
     while (!bundles_.empty()) {
         const Bundle bundle = std::move(bundles_.back());
         bundles_.pop_back();
-        if (bundle.count <= small_bundle && bundle.end - bundle.begin <= short_bundle * spacing_)
-            prove(bundle);
-        else
+        if (!is_small(bundle))
             divide(bundle);
+        else if (bundle.dear)
+            take_samples(bundle);
+        else
+            prove(bundle);
     }
+}
+
+bool FrontSearch::is_small(const Bundle& bundle) const {
+    const std::size_t count = bundle.dear ? small_dear_bundle : small_bundle;
+    const double size = bundle.dear ? short_dear_bundle : short_bundle;
+    return bundle.count <= count && bundle.end - bundle.begin <= size * spacing_;
 }
 
 /// True for a ray without a hit so far that passes through the bundle's range of distances.
@@ -73,7 +83,8 @@ double FrontSearch::width_of(const Bundle& bundle) const {
 /// Puts the parts of a bundle that may hold some of the solid on the stack, the farthest first.
 void FrontSearch::divide(const Bundle& bundle) {
     const double size = bundle.end - bundle.begin;
-    const bool along_only = bundle.count <= small_bundle || size > 4 * width_of(bundle);
+    const std::size_t small = bundle.dear ? small_dear_bundle : small_bundle;
+    const bool along_only = bundle.count <= small || size > 4 * width_of(bundle);
     const std::size_t across = along_only ? 1 : parts_across;
     const int along = along_only ? parts_along : parts_along / static_cast<int>(parts_across);
     const std::size_t share = (bundle.count + across - 1) / across;
@@ -85,7 +96,8 @@ void FrontSearch::divide(const Bundle& bundle) {
                         bundle.begin + size * k / along,
                         k + 1 == along ? bundle.end : bundle.begin + size * (k + 1) / along,
                         bundle.field,
-                        bundle.owner};
+                        bundle.owner,
+                        bundle.dear};
             const Box3 box = box_of(part);
             if (box.min.x > box.max.x) continue;
             parts_.push_back(std::move(part));
@@ -101,6 +113,7 @@ void FrontSearch::divide(const Bundle& bundle) {
         if (fields_[p]) {
             parts_[p].field = fields_[p].get();
             parts_[p].owner = std::move(fields_[p]);
+            parts_[p].dear = bundle.dear && parts_[p].field->has_dear_ranges();
         }
         bundles_.push_back(std::move(parts_[p]));
     }
@@ -114,6 +127,35 @@ void FrontSearch::prove(const Bundle& bundle) {
         take_stretches(*bundle.field);
         halve_stretches(*bundle.field);
     }
+    finish(*bundle.field);
+}
+
+/// The first changes of sign between samples within a small bundle, on the rays that are not proved empty.
+void FrontSearch::take_samples(const Bundle& bundle) {
+    brackets_.clear(), found_.clear(), runs_.clear(), boxes_.clear();
+    for (std::size_t i = bundle.first; i < bundle.first + bundle.count; ++i) {
+        if (!is_open(i, bundle)) continue;
+        const double begin = std::max(bundle.begin, reaches_[i].begin);
+        const double end = std::min(bundle.end, reaches_[i].end);
+        runs_.push_back({i, begin, end, samples_within(begin, end, resolution_)});
+        boxes_.push_back(box_between(rays_[i], begin, end));
+    }
+    ranges_.resize(boxes_.size());
+    bundle.field->ranges(boxes_, ranges_);
+    std::size_t next = 0;
+    std::erase_if(runs_, [&](const SampledRun&) { return !ranges_[next++].can_be_inside; });
+    if (runs_.empty()) return;
+    find_crossings(rays_, *bundle.field, runs_, columns_, [&](const SampledRun& run, const Bracket& found) {
+        if (found.in > run.begin) {
+            brackets_.push_back(found);
+            return;
+        }
+        // the solid begins at the clip box, or the root lies a rounding error before this run
+        const Reach& reach = reaches_[run.ray];
+        hits_[run.ray].t = run.begin;
+        hits_[run.ray].cut_by = run.begin <= reach.begin ? reach.side : std::uint8_t{0};
+        found_.push_back(run.ray);
+    });
     finish(*bundle.field);
 }
 

@@ -4,6 +4,8 @@
 // stands for F there (SampledField::narrow). In a small bundle each ray is proved on its own: a stretch is
 // empty by proof, or halved; a stretch shorter than `resolution` counts as empty unless F changes its sign
 // from its front to its back end. So what a ray misses of the solid is shorter than `resolution` along it.
+// Where ranges cost much more than values (SampledField::has_dear_ranges) bundles are divided further, and F
+// at places `resolution` apart stands for the proofs of single rays: what is missed is no larger.
 // After Duff 1992, "Interval arithmetic and recursive subdivision for implicit functions", and, for what
 // stands for a field in a part of space, Keeter 2020, "Massively parallel rendering of complex closed-form
 // implicit surfaces". Tested by tests/unit/trace/first_hit_test.cpp.
@@ -42,6 +44,7 @@ class FrontSearch {
         double begin = 0, end = 0;
         SampledField* field = nullptr;
         std::shared_ptr<SampledField> owner;  ///< of `field`, unless it is the whole
+        bool dear = false;                    ///< field->has_dear_ranges()
     };
     /// A ray within a small bundle.
     struct Walker {
@@ -53,8 +56,10 @@ class FrontSearch {
     bool is_open(std::size_t ray, const Bundle& bundle) const;
     Box3 box_of(const Bundle& bundle) const;
     double width_of(const Bundle& bundle) const;
+    bool is_small(const Bundle& bundle) const;
     void divide(const Bundle& bundle);
     void prove(const Bundle& bundle);
+    void take_samples(const Bundle& bundle);
     void start_walkers(const Bundle& bundle);
     void take_stretches(SampledField& field);
     void halve_stretches(SampledField& field);
@@ -69,6 +74,7 @@ class FrontSearch {
     std::vector<Bundle> parts_;
     std::vector<Walker> walkers_;
     std::vector<std::size_t> walking_, halved_;
+    std::vector<SampledRun> runs_;
     std::vector<Bracket> brackets_;
     std::vector<std::size_t> found_;  ///< rays
     std::vector<Box3> boxes_;

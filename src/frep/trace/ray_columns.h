@@ -2,6 +2,7 @@
 // ray, many rays at a time. Tested through tests/unit/trace/first_hit_test.cpp.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <limits>
 #include <span>
@@ -49,6 +50,42 @@ struct Bracket {
     double f_out = 0, f_in = 0;
     int stalled = 0;  ///< working memory of find_roots()
 };
+
+/// A part of a ray at which F is sampled: `samples` places apart evenly after `begin`, the last at `end`.
+struct SampledRun {
+    std::size_t ray = 0;
+    double begin = 0, end = 0;
+    std::size_t samples = 1;
+
+    double place(std::size_t n) const {
+        return begin + (end - begin) * (static_cast<double>(n) / static_cast<double>(samples));
+    }
+};
+
+/// The samples of a run that lie no more than `distance` > 0 apart.
+inline std::size_t samples_within(double begin, double end, double distance) {
+    return static_cast<std::size_t>(std::max(1.0, __builtin_ceil((end - begin) / distance)));
+}
+
+/// Calls found(run, bracket) for each run with a sample in the solid, with the first such sample and the one
+/// before it; bracket.in = bracket.out = run.begin where the run begins in the solid.
+template <class Found>
+void find_crossings(std::span<const Ray> rays, SampledField& field, std::span<const SampledRun> runs,
+                    RayColumns& columns, Found found) {
+    columns.clear();
+    for (const SampledRun& run : runs)
+        for (std::size_t n = 0; n <= run.samples; ++n) columns.add(at(rays[run.ray], run.place(n)));
+    const double* f = columns.values(field).data();
+    for (const SampledRun& run : runs) {
+        const double* own = f;
+        f += run.samples + 1;
+        std::size_t n = 0;
+        while (n <= run.samples && !(own[n] >= 0)) ++n;
+        if (n > run.samples) continue;
+        const std::size_t before = n == 0 ? 0 : n - 1;
+        found(run, Bracket{run.ray, run.place(before), run.place(n), own[before], own[n], 0});
+    }
+}
 
 /// Narrows brackets to 1e-9 of their distance: false position, the weight of an end that stays halved (Dowell
 /// and Jarratt 1971, "Illinois"), halving where that does not gain or F is no number.

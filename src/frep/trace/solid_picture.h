@@ -64,9 +64,9 @@ class SolidScene {
 
     /// False when there is surely nothing in the box.
     bool has_solid() const;
-    /// True when intervals say nothing about the function or take too long (PictureQuality::high waits for
-    /// them where it can), and samples find the surface instead of proofs: details below a cell may be
-    /// missed.
+    /// True when intervals say nothing about the function, or in a draft take too long
+    /// (SampledField::has_dear_ranges), and samples find the surface instead of proofs: details below a cell
+    /// may be missed.
     bool sampled() const;
 
     /// A picture of the scene. Errors: invalid_argument for a size or an angle out of range, cancelled.

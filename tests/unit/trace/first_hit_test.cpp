@@ -95,6 +95,41 @@ TEST_CASE("a plate of a thousandth of the box hides what is behind it") {
         CHECK(std::fabs(hit.t - (5 - 0.738)) < 1e-6);
 }
 
+/// A field whose ranges are dear: a sum over `count` triangles, below 0.3.
+Expression many_triangles(Expression x, Expression y, Expression z, int count) {
+    Graph& graph = x.graph();
+    const NodeId point[3] = {x.id(), y.id(), z.id()};
+    std::vector<NodeId> data;
+    for (int n = 0; n < count; ++n)
+        for (const double item :
+             {-0.5, 0.0, -0.1 * n, 0.5, 0.0, -0.1 * n, 0.0, 0.5, -0.1 * n, 4.0, 0.3 / count})
+            data.push_back(graph.constant(item));
+    return {graph, graph.make_block(Op::conv_triangle, point, data)};
+}
+
+TEST_CASE("a thin plate beside sums and noise is found as well") {
+    // the plate is a fifteenth of a cell thick
+    const auto plate_of = [](auto z) { return 0.001 - abs(z - 0.737); };
+    const auto triangles =
+        solid([&](auto x, auto y, auto z) { return max(many_triangles(x, y, z, 20) - 0.1, plate_of(z)); });
+    CHECK(triangles->has_dear_ranges());
+    const auto rough = solid([&](auto x, auto y, auto z) {
+        Expression noise = 0.4 - sqrt(x * x + y * y + z * z);
+        for (int octave = 0; octave < 5; ++octave) {
+            const double f = std::exp2(octave);
+            noise = noise + apply(Op::lattice_noise, {x * (3 * f), y * (3 * f), z * (3 * f)}) * (0.1 / f);
+        }
+        return max(noise, plate_of(z));
+    });
+    CHECK(rough->has_dear_ranges());
+    for (const auto* field : {triangles.get(), rough.get()}) {
+        bool sampled = true;
+        for (const Hit& hit : traced(*field, Box3::cube(1), rays_down(0.9, 30), &sampled))
+            CHECK(std::fabs(hit.t - (5 - 0.738)) < 1e-6);
+        CHECK(!sampled);
+    }
+}
+
 TEST_CASE("needles are met by the rays that go through them") {
     const auto field = solid([](auto x, auto y, auto z) {
         const auto needle = 0.002 - sqrt(square(x - 0.3) + square(z - 0.1));

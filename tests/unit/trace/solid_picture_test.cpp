@@ -203,3 +203,20 @@ TEST_CASE("nothing to see, and sizes that are refused") {
     flat.bounds.max.z = -1;
     CHECK(!SolidScene::make(*none, flat, Job()));
 }
+
+TEST_CASE("only drafts of fields with dear ranges are sampled") {
+    const auto field = solid([](auto x, auto y, auto z) {
+        Expression sum = 1.0 - sqrt(x * x + y * y + z * z);
+        for (int n = 0; n < 6; ++n) sum = sum + 0.01 * apply(Op::lattice_noise, {x + 1.0 * n, y, z});
+        return sum;
+    });
+    const Job job;
+    for (const PictureQuality quality :
+         {PictureQuality::draft, PictureQuality::normal, PictureQuality::high}) {
+        SceneOptions options = scene_of(2);
+        options.quality = quality;
+        const auto scene = SolidScene::make(*field, options, job);
+        REQUIRE(scene);
+        CHECK(scene->sampled() == (quality == PictureQuality::draft));
+    }
+}
