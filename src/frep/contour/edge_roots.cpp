@@ -7,7 +7,7 @@ namespace frep::contouring {
 
 namespace {
 
-constexpr int most_steps = 32;        // bisection needs 30 to reach root_width
+constexpr int most_steps = 36;        // bisection needs 30 to reach root_width
 constexpr double secant_shift = 0.1;  // towards the middle, times the squared way to the nearer end
 constexpr double least_shift = 0.3 * root_width;
 

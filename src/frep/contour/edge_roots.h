@@ -2,7 +2,7 @@
 // keeps a bracket of an inside and an outside point. Where the samples on the line of the edge have given a
 // model of F (see predict), the first point is the root of the model, the second a Newton step with its slope,
 // corrected by the first value. Else a step tries the point of the secant, moved a little towards the middle;
-// all are held so near to the middle that bisection never needs more than two steps less (the ITP method of
+// all are held so near to the middle that bisection never needs more than six steps less (the ITP method of
 // Oliveira and Takahashi 2020, "An enhancement of the bisection method average performance preserving minmax
 // optimality"). Where a value is not finite it is the middle. Every edge is searched from its lower to its
 // upper end, alone: the result does not depend on the batch.

@@ -60,8 +60,8 @@ class SampledField {
     virtual void narrow(std::span<const Box3> boxes, std::span<SignRange> out,
                         std::span<std::shared_ptr<SampledField>> parts);
     /// near[b] = a field whose values in box b have the sign of this one's at every point, and are undefined
-    /// where those are: for that alone, sooner than this one; about the values of what narrow() gives,
-    /// unless they are near to 0. Null where that would gain nothing. As parts, else.
+    /// where those are, sooner than with this one. Their size says about how near the surface is, no more.
+    /// Null where that would gain nothing. As parts, else.
     virtual void narrow_signs(std::span<const Box3> boxes, std::span<std::shared_ptr<SampledField>> near);
 };
 
