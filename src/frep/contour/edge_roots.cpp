@@ -23,12 +23,18 @@ void shrink(double old, double now, double& kept) {
 /// The Newton step from the model's root, where F is `value`. What the model lacks is a multiple of the
 /// product of the ways to its samples; the multiple follows from the value.
 double corrected(const EdgeModel& model, double tried, double value) {
-    const double t = tried, u = t * (1 - t);
-    if (!(u > 1e-6)) return t - value / model.slope;
-    double growth = (1 - 2 * t) / u;  // of that product, relative
-    if (model.has_before) growth += 1 / (1 + t);
-    if (model.has_after) growth -= 1 / (2 - t);
-    return t - value / (model.slope + (value - model.value) * growth);
+    const double t = tried;
+    double product = t * (1 - t), slope = 1 - 2 * t;
+    if (!(product > 1e-6)) return t - value / model.slope;
+    if (model.has_before) {
+        slope = slope * (1 + t) + product;
+        product *= 1 + t;
+    }
+    if (model.has_after) {
+        slope = slope * (2 - t) - product;
+        product *= 2 - t;
+    }
+    return t - value * product / (model.slope * product + (value - model.value) * slope);
 }
 
 }  // namespace

@@ -20,8 +20,8 @@ namespace frep::contouring {
 
 /// F along an edge as the polynomial through the samples there, about its root.
 struct EdgeModel {
-    double root = -1;  ///< t; no number of [0, 1]: there is no model
-    double value = 0;  ///< of the polynomial at `root`: nearly 0
+    double root = -1;  ///< t, about; no number of [0, 1]: there is no model
+    double value = 0;  ///< of the polynomial at `root`
     double slope = 0;  ///< by t
     bool has_before = false, has_after = false;  ///< the samples at t = -1, t = 2 have been used
 
