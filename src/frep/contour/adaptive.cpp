@@ -53,8 +53,7 @@ Result<ContourResult> contour_adaptive(const SampledField& field, const ContourO
     std::vector<std::unique_ptr<DualBlock>> all(octree->blocks.size());
     const std::size_t crossing_bytes = bytes_a_crossing + dual.attributes * bytes_an_attribute;
     const BlockFindings findings = for_blocks(
-        {*grid, octree->blocks, fields, options.prune, options.memory_limit / crossing_bytes, 0.8, true},
-        job,
+        {*grid, octree->blocks, fields, options.prune, options.memory_limit / crossing_bytes, 0.8, true}, job,
         [&](SampledField&) { return DualSampler(*grid, dual); },
         [&](DualSampler& sampler, std::size_t i, const BlockFields& block) {
             all[i] = sampler.sample(octree->blocks[i], block);

@@ -302,8 +302,8 @@ bool DualSampler::keeps_topology(const Lattice& lower, std::uint32_t step) const
             }
             return is_inside(l);
         };
-        const bool here = is_inside(
-            {lower[0] + digit[0] * step, lower[1] + digit[1] * step, lower[2] + digit[2] * step});
+        const bool here =
+            is_inside({lower[0] + digit[0] * step, lower[1] + digit[1] * step, lower[2] + digit[2] * step});
         bool agrees = false;
         for (unsigned bits = 0; bits < 8 && !agrees; ++bits) agrees = sign(bits) == here;
         if (!agrees) return false;

@@ -1,12 +1,12 @@
 // EdgeRoots: where the surface crosses edges of the lattice, all edges of a block in a few batches. Each edge
 // keeps a bracket of an inside and an outside point. Where the samples on the line of the edge have given a
-// model of F (see predict), the first point is the root of the model, the second a Newton step with its slope,
-// corrected by the first value. Else a step tries the point of the secant, moved a little towards the middle;
-// all are held so near to the middle that bisection never needs more than six steps less (the ITP method of
-// Oliveira and Takahashi 2020, "An enhancement of the bisection method average performance preserving minmax
-// optimality"). Where a value is not finite it is the middle. Every edge is searched from its lower to its
-// upper end, alone: the result does not depend on the batch.
-// Tested by tests/unit/contour/adaptive_roots_test.cpp.
+// model of F (see predict), the first point is the root of the model, the second a Newton step with its
+// slope, corrected by the first value. Else a step tries the point of the secant, moved a little towards the
+// middle; all are held so near to the middle that bisection never needs more than six steps less (the ITP
+// method of Oliveira and Takahashi 2020, "An enhancement of the bisection method average performance
+// preserving minmax optimality"). Where a value is not finite it is the middle. Every edge is searched from
+// its lower to its upper end, alone: the result does not depend on the batch. Tested by
+// tests/unit/contour/adaptive_roots_test.cpp.
 #pragma once
 
 #include <cstddef>
@@ -20,9 +20,9 @@ namespace frep::contouring {
 
 /// F along an edge as the polynomial through the samples there, about its root.
 struct EdgeModel {
-    double root = -1;  ///< t, about; no number of [0, 1]: there is no model
-    double value = 0;  ///< of the polynomial at `root`
-    double slope = 0;  ///< by t
+    double root = -1;                            ///< t, about; no number of [0, 1]: there is no model
+    double value = 0;                            ///< of the polynomial at `root`
+    double slope = 0;                            ///< by t
     bool has_before = false, has_after = false;  ///< the samples at t = -1, t = 2 have been used
 
     bool is_known() const { return root >= 0 && root <= 1; }
@@ -37,8 +37,8 @@ struct CrossedEdge {
     EdgeModel model;
 };
 
-/// Sets the model of an edge from F at t = -1 and t = 2: the cubic through four values (Everett's formula), or
-/// the parabola through three where one of these is not finite. None where both or an end are not.
+/// Sets the model of an edge from F at t = -1 and t = 2: the cubic through four values (Everett's formula),
+/// or the parabola through three where one of these is not finite. None where both or an end are not.
 void predict(CrossedEdge& edge, double before, double after);
 
 /// The bracket that was found, narrower than root_width.

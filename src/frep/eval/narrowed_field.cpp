@@ -71,21 +71,17 @@ class NearField final : public SampledField {
   public:
     NearField(std::shared_ptr<Narrowing> narrowing, std::shared_ptr<TapeCode> near,
               std::shared_ptr<TapeCode> exact, double error)
-        : narrowing_(std::move(narrowing)),
-          near_(std::move(near)),
-          exact_(std::move(exact)),
-          error_(error) {}
+        : narrowing_(std::move(narrowing)), near_(std::move(near)), exact_(std::move(exact)), error_(error) {}
 
     std::unique_ptr<SampledField> clone() const override {
-        return std::make_unique<NearField>(
-            std::make_shared<Narrowing>(narrowing_->engines_->columns.map()),
-            std::make_shared<TapeCode>(near_->tape()), std::make_shared<TapeCode>(exact_->tape()), error_);
+        return std::make_unique<NearField>(std::make_shared<Narrowing>(narrowing_->engines_->columns.map()),
+                                           std::make_shared<TapeCode>(near_->tape()),
+                                           std::make_shared<TapeCode>(exact_->tape()), error_);
     }
 
     void values(const PointSpans& points, std::span<double> out) override {
         narrowing_->values(*near_, points, out);
-        narrowing_->redo(
-            *exact_, points, out, [this](double f) { return f >= -error_ && f <= error_; });
+        narrowing_->redo(*exact_, points, out, [this](double f) { return f >= -error_ && f <= error_; });
     }
 
     void gradients(const PointSpans& points, std::span<double> values, const GradientSpans& out) override {
@@ -214,8 +210,7 @@ void Narrowing::narrow_signs(const std::shared_ptr<Narrowing>& self, const std::
         std::array<std::shared_ptr<SampledField>, tile_lanes> made;
         for (std::size_t t = 0; t < static_cast<std::size_t>(e.cut.tape_count); ++t)
             if (cost_of(e.cut.tapes[t]) < worthwhile_part * whole_cost)
-                made[t] =
-                    std::make_shared<NearField>(self, e.codes.code_for(e.cut.tapes[t]), code, error);
+                made[t] = std::make_shared<NearField>(self, e.codes.code_for(e.cut.tapes[t]), code, error);
         for (unsigned b = 0; b < count; ++b)
             if (const std::int8_t number = e.cut.tape_of[b]; number >= 0)
                 near[first + b] = made[static_cast<std::size_t>(number)];

@@ -1,5 +1,5 @@
-// Pruner::cut_near() and SampledField::narrow_signs(): what is left out of sums stays within the error that is
-// given back, and signs are those of the whole field at every point, also next to the surface.
+// Pruner::cut_near() and SampledField::narrow_signs(): what is left out of sums stays within the error that
+// is given back, and signs are those of the whole field at every point, also next to the surface.
 #include <doctest/doctest.h>
 
 #include <cmath>
