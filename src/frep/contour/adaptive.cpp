@@ -53,10 +53,10 @@ Result<ContourResult> contour_adaptive(const SampledField& field, const ContourO
     std::vector<std::unique_ptr<DualBlock>> all(octree->blocks.size());
     const std::size_t crossing_bytes = bytes_a_crossing + dual.attributes * bytes_an_attribute;
     const BlockFindings findings = for_blocks(
-        {*grid, octree->blocks, fields, options.prune, options.memory_limit / crossing_bytes, 0.8}, job,
+        {*grid, octree->blocks, fields, options.prune, options.memory_limit / crossing_bytes, 0.8, true}, job,
         [&](SampledField&) { return DualSampler(*grid, dual); },
-        [&](DualSampler& sampler, std::size_t i, SampledField& part, SampledField& whole) {
-            all[i] = sampler.sample(octree->blocks[i], part, whole);
+        [&](DualSampler& sampler, std::size_t i, const BlockFields& block) {
+            all[i] = sampler.sample(octree->blocks[i], block);
             return all[i] ? all[i]->roots.size() : 0;
         });
     if (const Status status = finished(findings, job); !status) return status.error();

@@ -29,6 +29,7 @@ struct BlockTasks {
     bool prune = true;             ///< narrow the field for each block
     std::size_t most_nodes = 0;    ///< that all blocks may make together
     double share_of_progress = 1;  ///< of the whole job
+    bool signs = false;            ///< find a field for the signs, too
 };
 
 /// What the tasks found beside the parts of the mesh.
@@ -38,8 +39,22 @@ struct BlockFindings {
     bool over_limit = false;        ///< more than most_nodes; later blocks were left out
 };
 
+/// What stands for F in a block.
+struct BlockFields {
+    SampledField& part;   ///< in the box of the block, as of SampledField::narrow()
+    SampledField& signs;  ///< for the signs alone, as of SampledField::narrow_signs()
+    SampledField& whole;
+};
+
+/// Null stands for the field before.
+inline BlockFields fields_of(const FieldPart& part, const std::shared_ptr<SampledField>& near,
+                             SampledField& whole) {
+    SampledField& narrowed = part.field ? *part.field : whole;
+    return {narrowed, near ? *near : narrowed, whole};
+}
+
 /// For each task a worker, make(field), and for each of its blocks made += run(worker, number of the block,
-/// what stands for F there, field): the nodes made. A worker has the members `undefined` and `touches`.
+/// its fields): the nodes made. A worker has the members `undefined` and `touches`.
 template <class Make, class Run>
 BlockFindings for_blocks(const BlockTasks& tasks, const Job& job, Make make, Run run) {
     BlockFindings findings;
@@ -57,10 +72,14 @@ BlockFindings for_blocks(const BlockTasks& tasks, const Job& job, Make make, Run
         for (std::size_t i = first; i < std::min(first + blocks_a_task, tasks.codes.size()); ++i)
             parts.push_back({block_box(tasks.grid, tasks.codes[i]), nullptr});
         std::vector<SignRange> ranges(parts.size());
-        if (tasks.prune) narrow_parts(*field, parts, ranges);
+        std::vector<std::shared_ptr<SampledField>> near(parts.size());
+        if (tasks.prune) {
+            narrow_parts(*field, parts, ranges);
+            if (tasks.signs) narrow_signs(*field, parts, near);
+        }
         std::size_t made = 0;
         for (std::size_t i = 0; i < parts.size(); ++i)
-            made += run(worker, first + i, parts[i].field ? *parts[i].field : *field, *field);
+            made += run(worker, first + i, fields_of(parts[i], near[i], *field));
         if ((nodes += made) > tasks.most_nodes) over_limit = true;
         const std::lock_guard lock(mutex);
         findings.undefined.add(worker.undefined);  // sums and minima: the order of arrival does not matter

@@ -36,8 +36,8 @@ Result<ContourResult> contour_cells(const SampledField& field, const ContourOpti
         [&](SampledField& whole) {
             return BlockContourer(*grid, whole, {.cap = options.cap, .attributes = options.attributes});
         },
-        [&](BlockContourer& contourer, std::size_t i, SampledField& part, SampledField&) {
-            parts[i] = contourer.contour(octree->blocks[i], part);
+        [&](BlockContourer& contourer, std::size_t i, const BlockFields& block) {
+            parts[i] = contourer.contour(octree->blocks[i], block.part);
             return parts[i] ? parts[i]->edges.size() : 0;
         });
     if (const Status status = finished(findings, job); !status) return status.error();

@@ -4,6 +4,8 @@
 // the cube is that of a corner of this edge, this face, the cube.
 #include "frep/contour/dual_block.h"
 
+#include <algorithm>
+#include <bit>
 #include <limits>
 
 #include "frep/contour/block.h"
@@ -70,50 +72,61 @@ void DualSampler::place(std::uint64_t code) {
     }
 }
 
-std::unique_ptr<DualBlock> DualSampler::sample(std::uint64_t code, SampledField& part, SampledField& field) {
+std::unique_ptr<DualBlock> DualSampler::sample(std::uint64_t code, const BlockFields& fields) {
     place(code);
-    if (!take_values(code, part)) return nullptr;
+    if (!take_values(code, fields.signs)) return nullptr;
     work_.reset(code);
     collect_edges(work_);
     collect_cells(work_);
     if (work_.roots.empty() && work_.cells.empty()) return nullptr;
-    finder_.find(part, crossed_, found_);
+    finder_.find(fields.part, crossed_, found_);
     for (std::size_t i = 0; i < found_.size(); ++i) work_.roots[crossed_at_[i]] = found_[i].inside;
-    take_normals(work_, part);
-    take_attributes(work_, field);
+    take_normals(work_, fields.part);
+    take_attributes(work_, fields.whole);
     if (options_.tolerance > 0) find_mergeable(work_);
     return std::make_unique<DualBlock>(work_);  // a copy: exactly as large as needed
 }
 
 /// The values at the corners of the block's cells. False when there is no surface among them.
-bool DualSampler::take_values(std::uint64_t code, SampledField& part) {
-    for (std::vector<double>* column : {&x_, &y_, &z_}) column->clear();
-    const Lattice end{last_[0] + 1, last_[1] + 1, last_[2] + 1};
-    for (std::uint32_t z = first_[2]; z < end[2]; ++z) {
+bool DualSampler::take_values(std::uint64_t code, SampledField& field) {
+    std::array<std::uint32_t, 3> counts{};
+    for (std::size_t a = 0; a < 3; ++a) counts[a] = last_[a] + 1 - first_[a];
+    const std::size_t count = std::size_t{counts[0]} * counts[1] * counts[2];
+    for (std::vector<double>* column : {&x_, &y_, &z_, &out_}) column->resize(count);
+    std::array<double, side> row{};
+    for (std::uint32_t x = 0; x < counts[0]; ++x) row[x] = grid_.coordinate(0, lo_[0] + first_[0] + x - 1);
+    std::size_t at = 0;
+    for (std::uint32_t z = first_[2]; z <= last_[2]; ++z) {
         const double pz = grid_.coordinate(2, lo_[2] + z - 1);
-        for (std::uint32_t y = first_[1]; y < end[1]; ++y) {
-            const double py = grid_.coordinate(1, lo_[1] + y - 1);
-            for (std::uint32_t x = first_[0]; x < end[0]; ++x) {
-                x_.push_back(grid_.coordinate(0, lo_[0] + x - 1));
-                y_.push_back(py);
-                z_.push_back(pz);
-            }
+        for (std::uint32_t y = first_[1]; y <= last_[1]; ++y, at += counts[0]) {
+            std::copy_n(row.data(), counts[0], &x_[at]);
+            std::fill_n(&y_[at], counts[0], grid_.coordinate(1, lo_[1] + y - 1));
+            std::fill_n(&z_[at], counts[0], pz);
         }
     }
-    out_.resize(x_.size());
-    part.values({x_, y_, z_}, out_);
-    if (x_.size() < size) values_.fill(outside_by_decree);
-    const double* next = out_.data();
-    for_each(first_, end, [&](const Lattice& l) { values_[index(l)] = *next++; });
+    if (count == size) {
+        field.values({x_, y_, z_}, values_);
+    } else {
+        field.values({x_, y_, z_}, out_);
+        values_.fill(outside_by_decree);
+        at = 0;
+        for (std::uint32_t z = first_[2]; z <= last_[2]; ++z)
+            for (std::uint32_t y = first_[1]; y <= last_[1]; ++y, at += counts[0])
+                std::copy_n(&out_[at], counts[0], &values_[index({first_[0], y, z})]);
+    }
     std::size_t inside = 0;
     bool is_defined = true;
-    for (std::size_t i = 0; i < size; ++i) {
-        inside_[i] = values_[i] >= 0 ? 1 : 0;
-        inside += inside_[i];
-        is_defined = is_defined && values_[i] == values_[i];
+    const double* value = values_.data();
+    for (std::uint32_t& bits : rows_) {
+        bits = 0;
+        for (std::uint32_t x = 0; x < side; ++x, ++value) {
+            bits |= std::uint32_t{*value >= 0} << x;
+            is_defined = is_defined && *value == *value;
+        }
+        inside += bit_count(bits);
     }
     if (!is_defined || (is_at_side_ && inside > 0)) note_samples(code);
-    return inside > 0 && (inside < x_.size() || (options_.cap && inside < size));
+    return inside > 0 && (inside < count || (options_.cap && inside < size));
 }
 
 /// Counts the undefined samples of this block's own and notes inside samples at the sides of the box.
@@ -135,19 +148,26 @@ void DualSampler::note_samples(std::uint64_t code) {
 void DualSampler::collect_edges(DualBlock& block) {
     crossed_.clear();
     crossed_at_.clear();
-    for_each({0, 0, 0}, {block_side, block_side, block_side}, [&](const Lattice& l) {
-        const std::uint32_t at = index(l);
-        for (std::size_t a = 0; a < 3; ++a) {
-            if (inside_[at] != inside_[at + stride[a]]) add_edge(block, l, a);
+    constexpr std::uint32_t own = (1u << block_side) - 1;
+    for (std::uint32_t z = 0; z < block_side; ++z) {
+        for (std::uint32_t y = 0; y < block_side; ++y) {
+            const std::uint32_t* const row = &rows_[z * side + y];
+            const std::array<std::uint32_t, 3> crossed{(row[0] ^ row[0] >> 1) & own, (row[0] ^ row[1]) & own,
+                                                       (row[0] ^ row[side]) & own};
+            for (std::uint32_t rest = crossed[0] | crossed[1] | crossed[2]; rest != 0; rest &= rest - 1) {
+                const auto x = static_cast<std::uint32_t>(std::countr_zero(rest));
+                for (std::size_t a = 0; a < 3; ++a)
+                    if ((crossed[a] >> x & 1) != 0) add_edge(block, {x, y, z}, a);
+            }
         }
-    });
+    }
     block.edges.count();
 }
 
 void DualSampler::add_edge(DualBlock& block, const Lattice& lower, std::size_t axis) {
     Lattice upper = lower;
     ++upper[axis];
-    const bool lower_is_inside = inside_[index(lower)] != 0;
+    const bool lower_is_inside = is_inside(lower);
     if (is_at_side_ && (is_layer(lower) || is_layer(upper))) {
         // The cap: the crossing is the inside sample, its normal that of the side.
         if (!options_.cap) return;
@@ -164,8 +184,12 @@ void DualSampler::add_edge(DualBlock& block, const Lattice& lower, std::size_t a
     const std::uint32_t i = lo_[axis] + lower[axis] - 1;
     edge.length =
         grid_.coordinate(static_cast<int>(axis), i + 1) - grid_.coordinate(static_cast<int>(axis), i);
-    edge.lower_value = values_[index(lower)];
-    edge.upper_value = values_[index(upper)];
+    const double* const value = &values_[index(lower)];
+    const std::uint32_t step = stride[axis];
+    edge.lower_value = *value;
+    edge.upper_value = value[step];
+    predict(edge, lower[axis] > 0 ? *(value - step) : outside_by_decree,
+            upper[axis] < block_side ? value[2 * step] : outside_by_decree);
     crossed_.push_back(edge);
     crossed_at_.push_back(static_cast<std::uint32_t>(block.roots.size()));
     block.edges.insert(edge_number(lower, axis));
@@ -209,7 +233,7 @@ void DualSampler::take_attributes(DualBlock& block, SampledField& field) {
                 ++next;
             } else {
                 Lattice at = l;
-                at[a] += inside_[index(l)] ? 0u : 1u;
+                at[a] += is_inside(l) ? 0u : 1u;
                 p = point(at);
             }
             x_.push_back(p.x);
@@ -231,9 +255,8 @@ unsigned DualSampler::signs_at(const Lattice& lower, std::uint32_t step) const {
     unsigned signs = 0;
     for (unsigned c = 0; c < 8; ++c) {
         const auto& o = corner_offsets[c];
-        const std::uint32_t at =
-            index({lower[0] + o[0] * step, lower[1] + o[1] * step, lower[2] + o[2] * step});
-        signs |= static_cast<unsigned>(inside_[at]) << c;
+        const bool sign = is_inside({lower[0] + o[0] * step, lower[1] + o[1] * step, lower[2] + o[2] * step});
+        signs |= static_cast<unsigned>(sign) << c;
     }
     return signs;
 }
@@ -245,20 +268,15 @@ void DualSampler::collect_cells(DualBlock& block) {
         begin[a] = first_[a];
         end[a] = last_[a] < block_side ? last_[a] : block_side;
     }
-    Lattice l{};
-    for (l[2] = begin[2]; l[2] < end[2]; ++l[2]) {
-        for (l[1] = begin[1]; l[1] < end[1]; ++l[1]) {
-            // The four signs across the row at x: 0 all outside, 4 all inside.
-            const std::uint8_t* row = &inside_[index({0, l[1], l[2]})];
-            const auto across = [row](std::uint32_t x) {
-                return row[x] + row[x + stride[1]] + row[x + stride[2]] + row[x + stride[1] + stride[2]];
-            };
-            int here = across(begin[0]);
-            for (l[0] = begin[0]; l[0] < end[0]; ++l[0]) {
-                const int next = across(l[0] + 1);
-                const int sum = here + next;
-                here = next;
-                if (sum == 0 || sum == 8) continue;
+    const std::uint32_t own = (1u << end[0]) - (1u << begin[0]);
+    for (std::uint32_t z = begin[2]; z < end[2]; ++z) {
+        for (std::uint32_t y = begin[1]; y < end[1]; ++y) {
+            const std::uint32_t* const row = &rows_[z * side + y];
+            const std::uint32_t some = row[0] | row[1] | row[side] | row[side + 1];
+            const std::uint32_t all = row[0] & row[1] & row[side] & row[side + 1];
+            for (std::uint32_t rest = (some | some >> 1) & ~(all & all >> 1) & own; rest != 0;
+                 rest &= rest - 1) {
+                const Lattice l{static_cast<std::uint32_t>(std::countr_zero(rest)), y, z};
                 DualCell cell;
                 cell.number = static_cast<std::uint16_t>(local_number(l));
                 cell.signs = static_cast<std::uint8_t>(signs_at(l, 1));
@@ -282,10 +300,10 @@ bool DualSampler::keeps_topology(const Lattice& lower, std::uint32_t step) const
                 const std::uint32_t d = digit[a] == 1 ? 2 * (bits >> a & 1u) : digit[a];
                 l[a] += d * step;
             }
-            return inside_[index(l)];
+            return is_inside(l);
         };
-        const std::uint8_t here = inside_[index(
-            {lower[0] + digit[0] * step, lower[1] + digit[1] * step, lower[2] + digit[2] * step})];
+        const bool here =
+            is_inside({lower[0] + digit[0] * step, lower[1] + digit[1] * step, lower[2] + digit[2] * step});
         bool agrees = false;
         for (unsigned bits = 0; bits < 8 && !agrees; ++bits) agrees = sign(bits) == here;
         if (!agrees) return false;

@@ -10,6 +10,7 @@
 #include <memory>
 #include <vector>
 
+#include "frep/contour/block_tasks.h"
 #include "frep/contour/edge_roots.h"
 #include "frep/contour/grid.h"
 #include "frep/contour/octree.h"
@@ -119,10 +120,10 @@ class DualSampler {
   public:
     DualSampler(const Grid& grid, const DualOptions& options) : grid_(grid), options_(options) {}
 
-    /// The block with this code, without vertices; null when nothing crosses it. `part` is asked for values
-    /// and gradients: the field, or what stands for it in the closed box of the block (block_box of block.h).
-    /// Adds to the tallies below.
-    std::unique_ptr<DualBlock> sample(std::uint64_t code, SampledField& part, SampledField& field);
+    /// The block with this code, without vertices; null when nothing crosses it. The fields are the field
+    /// itself or what stands for it in the closed box of the block (block_box of block.h): the one for signs
+    /// is asked at the corners of cells, the part for roots and gradients. Adds to the tallies below.
+    std::unique_ptr<DualBlock> sample(std::uint64_t code, const BlockFields& fields);
 
     UndefinedTally undefined;
     std::array<bool, 6> touches{};
@@ -134,10 +135,11 @@ class DualSampler {
 
     static std::uint32_t index(const Lattice& l) { return l[0] + l[1] * stride[1] + l[2] * stride[2]; }
     bool is_layer(const Lattice& l) const;
+    bool is_inside(const Lattice& l) const { return (rows_[l[2] * side + l[1]] >> l[0] & 1) != 0; }
     Vec3 point(const Lattice& l) const;
 
     void place(std::uint64_t code);
-    bool take_values(std::uint64_t code, SampledField& part);
+    bool take_values(std::uint64_t code, SampledField& field);
     void note_samples(std::uint64_t code);
     void collect_edges(DualBlock& block);
     void add_edge(DualBlock& block, const Lattice& lower, std::size_t axis);
@@ -154,7 +156,7 @@ class DualSampler {
     Lattice first_{}, last_{};  ///< local samples that are no layer
     bool is_at_side_ = false;   ///< holds samples of a side of the box
     std::array<double, size> values_{};
-    std::array<std::uint8_t, size> inside_{};
+    std::array<std::uint32_t, side * side> rows_{};  ///< bit x of row y + z * side: the sample is inside
     std::vector<double> x_, y_, z_, out_, gx_, gy_, gz_, columns_;
     DualBlock work_;
     EdgeRoots finder_;

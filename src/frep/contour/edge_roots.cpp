@@ -1,12 +1,17 @@
 // Implementation of edge_roots.h.
 #include "frep/contour/edge_roots.h"
 
+#include <array>
+
 namespace frep::contouring {
 
 namespace {
 
-constexpr int most_steps = 42;        // bisection needs 40 to reach root_width
+constexpr int most_steps = 46;        // bisection needs 40 to reach root_width
 constexpr double secant_shift = 0.1;  // towards the middle, times the squared way to the nearer end
+constexpr double least_shift = 0.3 * root_width;
+
+bool is_finite(double v) { return v - v == 0; }
 
 /// The value that the secant takes for the end that stays where it is, after the other end's value went from
 /// `old` to `now`: scaled down, so that the end is soon replaced too (Anderson and Bjorck 1973).
@@ -15,20 +20,63 @@ void shrink(double old, double now, double& kept) {
     kept *= scale > 0 && scale <= 1 ? scale : 0.5;
 }
 
-/// The next point to try in a bracket after `step` steps.
-double next_try(double low, double high, double low_value, double high_value, int step) {
-    const double width = high - low, middle = low + 0.5 * width;
-    const double secant = low + width * (low_value / (low_value - high_value));
-    if (!(secant >= low && secant <= high)) return middle;
-    const double to_middle = middle - secant;
-    const double distance = to_middle < 0 ? -to_middle : to_middle;
-    const double to_low = secant - low, to_high = high - secant;
-    const double near = to_low < to_high ? to_low : to_high;
-    const double shift = secant_shift * near * near;
-    const double least = 0.3 * root_width;
-    const double moved = shift > least ? shift : least;
+/// The Newton step from the model's root, where F is `value`. What the model lacks is a multiple of the
+/// product of the ways to its samples; the multiple follows from the value.
+double corrected(const EdgeModel& model, double tried, double value) {
+    const double t = tried;
+    double product = t * (1 - t), slope = 1 - 2 * t;
+    if (!(product > 1e-6)) return t - value / model.slope;
+    if (model.has_before) {
+        slope = slope * (1 + t) + product;
+        product *= 1 + t;
+    }
+    if (model.has_after) {
+        slope = slope * (2 - t) - product;
+        product *= 2 - t;
+    }
+    return t - value * product / (model.slope * product + (value - model.value) * slope);
+}
+
+}  // namespace
+
+void predict(CrossedEdge& edge, double before, double after) {
+    const double f0 = edge.lower_value, f1 = edge.upper_value;
+    edge.model = {};
+    const bool has_before = is_finite(before), has_after = is_finite(after);
+    if (!is_finite(f0 - f1) || (!has_before && !has_after)) return;
+    // second differences at the ends; a parabola has one
+    double s0 = before - 2 * f0 + f1, s1 = f0 - 2 * f1 + after;
+    if (!has_before) s0 = s1;
+    if (!has_after) s1 = s0;
+    const auto value = [&](double t) {
+        return (1 - t) * f0 + t * f1 - t * (1 - t) / 6 * ((2 - t) * s0 + (1 + t) * s1);
+    };
+    const auto slope = [&](double t) {
+        return f1 - f0 - ((1 - 2 * t) * ((2 - t) * s0 + (1 + t) * s1) + t * (1 - t) * (s1 - s0)) / 6;
+    };
+    double t = f0 / (f0 - f1);
+    for (int step = 0; step < 2; ++step) t -= value(t) / slope(t);
+    if (!(t >= 0 && t <= 1)) return;
+    edge.model = {t, value(t), slope(t), has_before, has_after};
+}
+
+/// The next point to try in a bracket after `step` steps; `first_value` is F at the first of them.
+double EdgeRoots::next_try(const Bracket& b, const EdgeModel& model, double first_value, int step) {
+    const double low = b.low, high = b.high, width = high - low, middle = low + 0.5 * width;
+    double estimate = -1;
+    if (step == 0) estimate = model.root;
+    if (step == 1 && model.is_known()) estimate = corrected(model, low > 0 ? low : high, first_value);
+    double shift = least_shift;
+    if (!(estimate >= low && estimate <= high)) {
+        estimate = low + width * (b.low_weight / (b.low_weight - b.high_weight));
+        if (!(estimate >= low && estimate <= high)) return middle;
+        const double to_low = estimate - low, to_high = high - estimate;
+        const double near = to_low < to_high ? to_low : to_high, moved = secant_shift * near * near;
+        if (moved > shift) shift = moved;
+    }
+    const double to_middle = middle - estimate, distance = to_middle < 0 ? -to_middle : to_middle;
     const double sign = to_middle < 0 ? -1 : 1;
-    const double tried = moved <= distance ? secant + sign * moved : middle;
+    const double tried = shift <= distance ? estimate + sign * shift : middle;
     const double reach =
         0.5 * root_width * static_cast<double>(std::uint64_t{1} << (most_steps - 1 - step)) - 0.5 * width;
     const double off = middle - tried;
@@ -36,33 +84,27 @@ double next_try(double low, double high, double low_value, double high_value, in
     return reach > 0 ? middle - sign * reach : middle;
 }
 
-}  // namespace
-
-Vec3 point_on(const CrossedEdge& edge, double t) {
-    Vec3 p = edge.lower;
-    (edge.axis == 0 ? p.x : edge.axis == 1 ? p.y : p.z) += t * edge.length;
-    return p;
-}
-
 void EdgeRoots::find(SampledField& field, const std::vector<CrossedEdge>& edges,
                      std::vector<EdgeRoot>& roots) {
-    brackets_.clear();
-    active_.clear();
+    brackets_.resize(edges.size());
+    active_.resize(edges.size());
     for (std::size_t i = 0; i < edges.size(); ++i) {
         const double low = edges[i].lower_value, high = edges[i].upper_value;
-        brackets_.push_back({0, 1, low, high, low, high});
-        active_.push_back(static_cast<std::uint32_t>(i));
+        brackets_[i] = {0, 1, low, high, low, high};
+        active_[i] = static_cast<std::uint32_t>(i);
     }
     for (std::vector<double>* column : {&x_, &y_, &z_, &t_, &values_}) column->resize(edges.size());
+    const std::array<double*, 3> axes{x_.data(), y_.data(), z_.data()};
     for (int step = 0; step < most_steps && !active_.empty(); ++step) {
         const std::size_t count = active_.size();
         for (std::size_t k = 0; k < count; ++k) {
-            const Bracket& b = brackets_[active_[k]];
-            t_[k] = next_try(b.low, b.high, b.low_weight, b.high_weight, step);
-            const Vec3 p = point_on(edges[active_[k]], t_[k]);
-            x_[k] = p.x;
-            y_[k] = p.y;
-            z_[k] = p.z;
+            const CrossedEdge& edge = edges[active_[k]];
+            const double t = next_try(brackets_[active_[k]], edge.model, values_[k], step);
+            t_[k] = t;
+            x_[k] = edge.lower.x;
+            y_[k] = edge.lower.y;
+            z_[k] = edge.lower.z;
+            axes[edge.axis][k] += t * edge.length;
         }
         const auto first = [count](std::vector<double>& column) {
             return std::span<double>(column.data(), count);
@@ -81,7 +123,9 @@ void EdgeRoots::find(SampledField& field, const std::vector<CrossedEdge>& edges,
                 b.high = t_[k];
                 b.high_value = b.high_weight = values_[k];
             }
-            if (b.high - b.low > root_width) active_[left++] = i;
+            if (!(b.high - b.low > root_width)) continue;
+            values_[left] = values_[k];  // the latest value of the edge
+            active_[left++] = i;
         }
         active_.resize(left);
     }

@@ -110,7 +110,7 @@ void subdivide(std::span<const std::uint64_t> parents, int level, const Grid& gr
     const FieldPool::Lease field = fields.borrow();
     FieldPart whole{around, nullptr};
     narrow_parts(*field, {&whole, 1}, {ranges.data(), 1});
-    (whole.field ? *whole.field : *field).ranges(boxes, ranges);
+    (whole.field ? *whole.field : *field).quick_ranges(boxes, ranges);
     for (std::size_t i = 0; i < codes.size(); ++i) {
         judge(parts[i], codes[i], level, ranges[i], grid, options.cap, found);
     }

@@ -15,6 +15,8 @@ namespace frep {
 /// box and term by term.
 bool has_dear_ranges(const ClauseTape& tape);
 
+class TapeCode;
+
 /// Engines and workspace that a field and all its parts share: they serve one thread.
 class Narrowing {
   public:
@@ -29,10 +31,20 @@ class Narrowing {
                        std::span<const Box3> boxes, std::span<SignRange> out,
                        std::span<std::shared_ptr<SampledField>> parts);
 
+    /// As SampledField::narrow_signs(), for the field that `code` computes.
+    static void narrow_signs(const std::shared_ptr<Narrowing>& self, const std::shared_ptr<TapeCode>& code,
+                             std::span<const Box3> boxes, std::span<std::shared_ptr<SampledField>> near);
+
+    /// As SampledField::values() and ranges(), for the field that a tape computes in space.
+    void values(TapeCode& code, const PointSpans& points, std::span<double> out);
+    void ranges(const ClauseTape& tape, std::span<const Box3> boxes, std::span<SignRange> out);
+
   private:
     friend class NarrowedField;
+    friend class NearField;
     struct Engines;
-    void ranges(const ClauseTape& tape, std::span<const Box3> boxes, std::span<SignRange> out);
+    template <class IsOpen>
+    void redo(TapeCode& code, const PointSpans& points, std::span<double> out, IsOpen is_open);
     void load_boxes(std::span<const Box3> boxes);
 
     std::unique_ptr<Engines> engines_;

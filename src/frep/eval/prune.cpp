@@ -88,6 +88,8 @@ struct Pruner::Workspace {
     CutEmitter emitter;
     const ClauseTape* tape = nullptr;  ///< of the pass that runs
     std::size_t operations = 0;
+    float tolerance = 0;  ///< as in tile::Job
+    float rounding = 0;
 
     void prepare(const ClauseTape& of);
     void fill_coordinates(const BoxLanes& boxes);
@@ -160,6 +162,8 @@ tile::Job Pruner::Workspace::job() {
     job.self = this;
     job.wanted = wanted.data();
     job.records = records.data();
+    job.tolerance = tolerance;
+    job.rounding = &rounding;
     return job;
 }
 
@@ -189,6 +193,7 @@ std::size_t Pruner::Workspace::run_reverse(unsigned lanes, bool value) {
     root = {};
     root.live = static_cast<std::uint16_t>(lanes);
     root.value = value ? root.live : std::uint16_t{0};
+    root.gain = 1;
     return kernels->reverse(job());
 }
 
@@ -237,6 +242,30 @@ void Pruner::cut(const ClauseTape& tape, const BoxLanes& boxes, Purpose purpose,
     if (lanes == 0) return;
     const std::size_t count = workspace_->run_reverse(lanes, value);
     workspace_->emit_groups(purpose, lanes, count, out);
+}
+
+double Pruner::cut_near(const ClauseTape& tape, const BoxLanes& boxes, double share, CutResult& out) {
+    const FloatControl control;
+    Workspace& w = *workspace_;
+    w.run_forward(tape, boxes, out.ranges);
+    out.tape_of.fill(CutResult::none);
+    out.tape_count = 0;
+    const unsigned lanes = out.ranges.open();
+    if (lanes == 0) return 0;
+    const auto is_sum = [](const Clause& clause) { return clause.op == Op::add || clause.op == Op::sub; };
+    const auto sums = std::count_if(tape.clauses.begin(), tape.clauses.end(), is_sum);
+    double width = std::numeric_limits<double>::infinity();
+    for (std::size_t k = 0; k < tile_lanes; ++k)
+        if ((lanes >> k & 1u) != 0)
+            width = std::min(width, static_cast<double>(out.ranges.hi[k]) - out.ranges.lo[k]);
+    const bool is_bounded = width <= std::numeric_limits<float>::max() && sums > 0;
+    w.tolerance = is_bounded ? static_cast<float>(share * width / static_cast<double>(sums)) : 0;
+    w.rounding = 0;
+    const std::size_t count = w.run_reverse(lanes, false);
+    w.emit_groups(Purpose::sign, lanes, count, out);
+    const double terms = static_cast<double>(w.tolerance) * static_cast<double>(sums);
+    w.tolerance = 0;
+    return 1.001 * (terms + w.rounding);
 }
 
 std::size_t Pruner::tile_operations() const { return workspace_->operations; }

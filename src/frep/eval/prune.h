@@ -83,6 +83,12 @@ class Pruner {
     /// a purpose serves that purpose and, for `sign`, occupancy. `out` must not hold `tape`.
     void cut(const ClauseTape& tape, const BoxLanes& boxes, Purpose purpose, CutResult& out);
 
+    /// As cut() for Purpose::sign, without small terms of sums: in binary64 a value of these tapes has the
+    /// sign of F where its size is larger than the number returned, and is undefined where F is. (With the
+    /// terms it would have that everywhere; what they may change is no more than that number.) It is about
+    /// `share` of the narrowest range of F among the open boxes; infinite where rounding cannot be bounded.
+    double cut_near(const ClauseTape& tape, const BoxLanes& boxes, double share, CutResult& out);
+
     /// Clauses run by all passes so far, a clause of 16 boxes counted once for each box.
     std::size_t tile_operations() const;
 

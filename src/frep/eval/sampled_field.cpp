@@ -8,6 +8,7 @@
 #include "frep/eval/axis_columns.h"
 #include "frep/eval/clause_tape.h"
 #include "frep/eval/narrowed_field.h"
+#include "frep/eval/tape_code.h"
 
 namespace frep {
 
@@ -23,6 +24,8 @@ class MappedField final : public SampledField {
     }
 
     void values(const PointSpans& points, std::span<double> out) override {
+        if (narrowing_ && code_->tape().clauses.size() <= most_clauses)
+            return narrowing_->values(*code_, points, out);
         outputs_.assign(1, out.data());
         evaluator_->values(columns_.coordinates(points), points.size(), outputs_);
         for (double& f : out) f -= iso_;
@@ -68,27 +71,49 @@ class MappedField final : public SampledField {
         }
     }
 
+    void quick_ranges(std::span<const Box3> boxes, std::span<SignRange> out) override {
+        if (has_narrowing())
+            narrowing_->ranges(code_->tape(), boxes, out);
+        else
+            ranges(boxes, out);
+    }
+
     bool has_dear_ranges() const override {
         return !evaluator_->clauses() || frep::has_dear_ranges(*evaluator_->clauses());
     }
 
     void narrow(std::span<const Box3> boxes, std::span<SignRange> out,
                 std::span<std::shared_ptr<SampledField>> parts) override {
-        if (!narrowing_ && evaluator_->clauses()) {
-            tape_ = shifted(*evaluator_->clauses(), iso_);
-            narrowing_ = std::make_shared<Narrowing>(columns_.map());
-        }
-        if (narrowing_)
-            Narrowing::narrow(narrowing_, tape_, boxes, out, parts);
+        if (has_narrowing())
+            Narrowing::narrow(narrowing_, code_->tape(), boxes, out, parts);
         else
             SampledField::narrow(boxes, out, parts);
     }
 
+    void narrow_signs(std::span<const Box3> boxes, std::span<std::shared_ptr<SampledField>> near) override {
+        if (has_narrowing())
+            Narrowing::narrow_signs(narrowing_, code_, boxes, near);
+        else
+            SampledField::narrow_signs(boxes, near);
+    }
+
   private:
+    /// Longer tapes are left to the evaluator, which bounds its memory.
+    static constexpr std::size_t most_clauses = std::size_t{1} << 18;
+
+    /// Makes the tape to be narrowed; false where there is none.
+    bool has_narrowing() {
+        if (!narrowing_ && evaluator_->clauses()) {
+            code_ = std::make_shared<TapeCode>(shifted(*evaluator_->clauses(), iso_));
+            narrowing_ = std::make_shared<Narrowing>(columns_.map());
+        }
+        return narrowing_ != nullptr;
+    }
+
     std::unique_ptr<Evaluator> evaluator_;
     AxisColumns columns_;
     double iso_;
-    ClauseTape tape_;  ///< of F - iso, once narrow() was called
+    std::shared_ptr<TapeCode> code_;  ///< of F - iso, once it was needed; so the next
     std::shared_ptr<Narrowing> narrowing_;
     std::vector<double> unused_;
     std::vector<double*> outputs_;
@@ -118,6 +143,22 @@ void narrow_parts(SampledField& whole, std::span<FieldPart> parts, std::span<Sig
         field.narrow(boxes, ranges.subspan(first, boxes.size()), narrowed);
         for (std::size_t n = 0; n < boxes.size(); ++n)
             if (narrowed[n]) parts[first + n].field = std::move(narrowed[n]);
+    }
+}
+
+void SampledField::narrow_signs(std::span<const Box3>, std::span<std::shared_ptr<SampledField>> near) {
+    for (std::shared_ptr<SampledField>& field : near) field = nullptr;
+}
+
+void narrow_signs(SampledField& whole, std::span<const FieldPart> parts,
+                  std::span<std::shared_ptr<SampledField>> near) {
+    std::vector<Box3> boxes;
+    for (std::size_t first = 0, last = 0; first < parts.size(); first = last) {
+        boxes.clear();
+        for (last = first; last < parts.size() && parts[last].field == parts[first].field; ++last)
+            boxes.push_back(parts[last].box);
+        SampledField& field = parts[first].field ? *parts[first].field : whole;
+        field.narrow_signs(boxes, near.subspan(first, boxes.size()));
     }
 }
 

@@ -48,6 +48,8 @@ class SampledField {
     virtual void attributes(const PointSpans& points, std::span<const std::span<double>> out);
     /// out[b] = the signs that F may take in the closed box b.
     virtual void ranges(std::span<const Box3> boxes, std::span<SignRange> out) = 0;
+    /// As ranges(), for many boxes at a time: sooner, and bounds may be wider by some parts in a million.
+    virtual void quick_ranges(std::span<const Box3> boxes, std::span<SignRange> out) { ranges(boxes, out); }
     /// True where ranges cost much more than values do, so that samples find a surface sooner than proofs do:
     /// a field that cannot be narrowed, or has sums of many terms.
     virtual bool has_dear_ranges() const { return true; }
@@ -57,6 +59,10 @@ class SampledField {
     /// A part may be narrowed again. Parts serve the thread of this object and must not outlive it.
     virtual void narrow(std::span<const Box3> boxes, std::span<SignRange> out,
                         std::span<std::shared_ptr<SampledField>> parts);
+    /// near[b] = a field whose values in box b have the sign of this one's at every point, and are undefined
+    /// where those are, sooner than with this one. Their size says about how near the surface is, no more.
+    /// Null where that would gain nothing. As parts, else.
+    virtual void narrow_signs(std::span<const Box3> boxes, std::span<std::shared_ptr<SampledField>> near);
 };
 
 /// A box and what stands for F there; null: the field that was asked first.
@@ -68,6 +74,10 @@ struct FieldPart {
 /// ranges[i] = the signs of F in parts[i].box, found through parts[i].field, which is then narrowed where
 /// that gains something. Parts that follow each other with one field are judged together.
 void narrow_parts(SampledField& whole, std::span<FieldPart> parts, std::span<SignRange> ranges);
+
+/// near[i] = what narrow_signs() gives for parts[i].
+void narrow_signs(SampledField& whole, std::span<const FieldPart> parts,
+                  std::span<std::shared_ptr<SampledField>> near);
 
 /// Where a coordinate of a model comes from: an axis of space or a frozen value.
 struct MappedCoordinate {

@@ -38,6 +38,7 @@ struct Wanted {
     std::uint16_t stage = 0;  ///< which part
     float margin = 0;         ///< the others of `live` need its sign, and its value where |value| <= margin
     float inner_margin = 0;   ///< the same for the operands of the smooth set operation
+    float gain = 0;  ///< what an error of the row may come to at the root, at most; infinite: not known
 };
 
 /// A data block of constants.
@@ -71,6 +72,11 @@ struct Job {
     /// none.
     Wanted* wanted;
     Record* records;  ///< room for clause_count of them
+    /// A term of a sum is dropped where that changes F by no more than this; 0: never.
+    float tolerance;
+    /// What rounding may add to that: grows by what it may make of all clauses below which terms may go. To
+    /// be set to 0 before.
+    float* rounding;
 };
 
 /// The passes.

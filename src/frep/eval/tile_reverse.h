@@ -28,6 +28,7 @@ void set_operation(const Walk& w, Demand d, Record& r) {
         r.value |= static_cast<std::uint16_t>(d.live);
     }
     if (rounded) r.notes |= r_function_note;
+    if (rounded) d.gain *= 2;  // their partial derivatives are within [0, 2]
     unsigned without_0 = 0, without_1 = 0;
     if (!rounded) {
         without_0 = united ? w.ordered(0, 1) : w.ordered(1, 0);
@@ -72,49 +73,67 @@ unsigned beyond(const Walk& w, int k, int extent, float times) {
     return m;
 }
 
+/// The gain of the operands of f * g or f/g where one is a constant.
+float scaled_gain(const Walk& w, float gain, bool over) {
+    const float c = constant_size(w, 1), b = over ? 0 : constant_size(w, 0);
+    return c > 0 ? widened(over ? gain / c : gain * c) : b > 0 ? widened(gain * b) : endless;
+}
+
 /// f * g or f/g: the sign of f is enough where that of g is known (and inf/inf cannot come up); a margin goes
 /// through constants.
 void product_demand(const Walk& w, Demand d, bool over) {
     if (d.sign() != 0 && d.margin > 0) {
         const float c = constant_size(w, 1), b = over ? 0 : constant_size(w, 0);
-        if (c > 0) w.ask(0, {d.live, d.value, widened(over ? d.margin * c : d.margin / c)});
-        if (b > 0) w.ask(1, {d.live, d.value, widened(d.margin / b)});
+        const float gain = scaled_gain(w, d.gain, over);
+        if (c > 0) w.ask(0, {d.live, d.value, widened(over ? d.margin * c : d.margin / c), gain});
+        if (b > 0) w.ask(1, {d.live, d.value, widened(d.margin / b), gain});
         if (c > 0 || b > 0) return;
         d = d.as_value();
     }
     const unsigned sign = d.sign();
+    const float gain = scaled_gain(w, d.gain, over);
     if (sign == 0) {
-        w.ask_value(0, d.live);
-        w.ask_value(1, d.live);
+        w.ask_value(0, d.live, gain);
+        w.ask_value(1, d.live, gain);
         return;
     }
     const unsigned known_0 = over ? 0 : w.positive(0) | w.negative(0);
     unsigned known_1 = w.positive(1) | w.negative(1);
     if (over) known_1 &= Walk::above(w.range(1), -endless) & Walk::below(w.range(1), endless);
-    w.ask(0, {d.live, d.value | (sign & ~known_1), 0});
-    w.ask(1, {d.live, d.value | (sign & ~known_0), 0});
+    w.ask(0, {d.live, d.value | (sign & ~known_1), 0, gain});
+    w.ask(1, {d.live, d.value | (sign & ~known_0), 0, gain});
 }
 
 /// a + b within a margin needs a within that and the size of b more. Where only the sign counts, a term that
-/// is 0 goes.
+/// is 0 goes. Terms that the tolerance allows go, whatever is wanted.
 void sum_demand(const Walk& w, Demand d, bool minus, Record& r) {
     const unsigned sign = d.sign();
+    if (sign != 0 && smooth_demand(w, d, minus, r)) return;
+    unsigned less_0 = 0, less_1 = 0;  // boxes without the one or the other
+    if (w.job.tolerance > 0 && d.gain < endless && d.gain > small) {
+        less_1 = d.live & w.within(1, w.job.tolerance / d.gain);
+        if (!minus) less_0 = d.live & w.within(0, w.job.tolerance / d.gain) & ~less_1;
+    }
     if (sign == 0) {
-        w.ask_value(0, d.live);
-        w.ask_value(1, d.live);
+        r.first = static_cast<std::uint16_t>(less_1);
+        r.second = static_cast<std::uint16_t>(less_0);
+        w.ask_value(0, d.live & ~less_0, d.gain);
+        w.ask_value(1, d.live & ~less_1, d.gain);
         return;
     }
-    if (smooth_demand(w, d, minus, r)) return;
     const unsigned first = sign & w.zero(1), second = minus ? 0 : sign & w.zero(0) & ~first;
-    r.first = static_cast<std::uint16_t>(first);
-    r.second = static_cast<std::uint16_t>(second);
-    if (first != 0) w.ask(0, {first, 0, d.margin});
-    if (second != 0) w.ask(1, {second, 0, d.margin});
+    less_0 &= ~first;
+    less_1 &= ~second;
+    r.first = static_cast<std::uint16_t>(first | less_1);
+    r.second = static_cast<std::uint16_t>(second | less_0);
+    if (first != 0) w.ask(0, {first, 0, d.margin, d.gain});
+    if (second != 0) w.ask(1, {second, 0, d.margin, d.gain});
     const unsigned rest = d.live & ~first & ~second;
     const float far_0 = farthest(w.range(0)), far_1 = farthest(w.range(1));
     const float margin_0 = widened(d.margin + far_1), margin_1 = widened(d.margin + far_0);
-    w.ask(0, {rest, margin_0 < far_0 ? d.value & rest : rest, margin_0});
-    w.ask(1, {rest, margin_1 < far_1 ? d.value & rest : rest, margin_1});
+    const unsigned rest_0 = rest & ~less_0, rest_1 = rest & ~less_1;
+    w.ask(0, {rest_0, margin_0 < far_0 ? d.value & rest_0 : rest_0, margin_0, d.gain});
+    w.ask(1, {rest_1, margin_1 < far_1 ? d.value & rest_1 : rest_1, margin_1, d.gain});
 }
 
 /// |a| is a or -a where the sign of a is known. It is as large as a.
@@ -192,6 +211,13 @@ void demand_of(const Walk& w, Demand d, Record& r) {
     }
 }
 
+/// What 16 roundings of the result and of the operands of a clause may come to at the root.
+float rounding_of(const Walk& w, float gain) {
+    float size = farthest(w.job.rows[w.clause.out()]);
+    for (int k = 0; k < static_cast<int>(w.clause.count()); ++k) size += farthest(w.range(k));
+    return widened(size * gain * 0x1p-49f) + w.job.tolerance * 0x1p-20f;
+}
+
 std::size_t reverse(const Job& job) {
     Record* next = job.records;
     const auto* at = static_cast<const unsigned char*>(job.clauses) + job.clause_count * clause_bytes;
@@ -210,7 +236,8 @@ std::size_t reverse(const Job& job) {
         Record& r = *next;
         ++next;
         r = Record{i, wanted.live, wanted.value, 0, 0, 0, 0};
-        if (wanted.live != 0) demand_of(w, {wanted.live, wanted.value, wanted.margin}, r);
+        if (job.tolerance > 0 && wanted.gain < endless) *job.rounding += rounding_of(w, wanted.gain);
+        if (wanted.live != 0) demand_of(w, {wanted.live, wanted.value, wanted.margin, wanted.gain}, r);
         if (wanted.inner != 0) inner_demand(w, wanted, r);
     }
     return static_cast<std::size_t>(next - job.records);

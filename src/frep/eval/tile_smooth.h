@@ -128,6 +128,7 @@ void smooth_range(const Walk& w, bool minus, Row& r) {
 inline void ask_inner(const Walk& w, int k, unsigned boxes, float margin, Stage stage) {
     Wanted& wanted = w.job.wanted[w.row(k)];
     wanted.inner |= static_cast<std::uint16_t>(boxes);
+    if (boxes != 0) wanted.gain = endless;
     if (wanted.stage != no_stage && wanted.stage != stage) wanted.stage = mixed_stages;
     if (wanted.stage == no_stage) wanted.stage = stage;
     if (margin > wanted.inner_margin) wanted.inner_margin = margin;

@@ -12,9 +12,11 @@ namespace {
 struct Demand {
     unsigned live, value;
     float margin;
+    float gain = endless;  ///< as in Wanted
     unsigned sign() const { return live & ~value; }
-    Demand only(unsigned boxes) const { return {live & boxes, value & boxes, margin}; }
-    Demand as_value() const { return {live, live, 0}; }
+    Demand only(unsigned boxes) const { return {live & boxes, value & boxes, margin, gain}; }
+    Demand as_value() const { return {live, live, 0, gain}; }
+    Demand scaled(float c) const { return {live, value, margin, gain * c}; }
 };
 
 /// x and a little more, so that what holds within a margin holds about its end too.
@@ -36,9 +38,10 @@ struct Walk {
         wanted.live |= static_cast<std::uint16_t>(d.live);
         wanted.value |= static_cast<std::uint16_t>(d.value);
         if (d.margin > wanted.margin && d.sign() != 0) wanted.margin = d.margin;
+        if (d.live != 0) wanted.gain += d.gain;
     }
     /// All of operand k, where the clause is needed.
-    void ask_value(int k, unsigned boxes) const { ask(k, {boxes, boxes, 0}); }
+    void ask_value(int k, unsigned boxes, float gain = endless) const { ask(k, {boxes, boxes, 0, gain}); }
 
     unsigned positive(int k) const { return above(range(k), 0.0f); }
     unsigned negative(int k) const { return below(range(k), 0.0f); }
@@ -59,6 +62,14 @@ struct Walk {
         unsigned m = 0;
         for (int c = 0; c < 16; c += width) m |= bits(less(load(a.hi + c), load(b.lo + c))) << c;
         return m;
+    }
+    /// Boxes where operand k is no larger than `most`.
+    unsigned within(int k, float most_of) const {
+        const Row& a = range(k);
+        unsigned m = 0;
+        for (int c = 0; c < 16; c += width)
+            m |= bits(less(most(-load(a.lo + c), load(a.hi + c)), all(most_of))) << c;
+        return m & ~undefined(k);
     }
     /// Boxes where operand k is 0.
     unsigned zero(int k) const {

@@ -1,5 +1,5 @@
 // Tests of contour/edge_roots.h: the crossing is bracketed to root_width, in few steps where F is smooth and
-// never in more than bisection and two.
+// never in more than bisection and six.
 #include "frep/contour/edge_roots.h"
 
 #include <doctest/doctest.h>
@@ -21,8 +21,8 @@ struct Search {
     int evaluations = 0;
 };
 
-/// Along x from 2 to 6.
-Search search(const std::function<double(double)>& f) {
+/// Along x from 2 to 6; with the samples at -2 and 10 if there is a model.
+Search search(const std::function<double(double)>& f, bool model = false, double before = undefined) {
     Search result;
     FunctionField field([&](double x, double, double) {
         ++result.evaluations;
@@ -34,6 +34,7 @@ Search search(const std::function<double(double)>& f) {
     edge.axis = 0;
     edge.lower_value = f(2);
     edge.upper_value = f(6);
+    if (model) predict(edge, before == before ? before : f(-2), f(10));
     std::vector<EdgeRoot> roots;
     EdgeRoots().find(field, {edge}, roots);
     REQUIRE(roots.size() == 1);
@@ -41,7 +42,7 @@ Search search(const std::function<double(double)>& f) {
     CHECK(f(2 + 4 * roots[0].inside) >= 0);
     CHECK(!(f(2 + 4 * roots[0].outside) >= 0));
     CHECK(std::abs(roots[0].inside - roots[0].outside) <= root_width);
-    CHECK(result.evaluations <= 42);
+    CHECK(result.evaluations <= 46);
     return result;
 }
 
@@ -63,7 +64,7 @@ TEST_CASE("crossings at the very ends") {
     CHECK(search([](double x) { return 2 - x; }).evaluations <= 6);
 }
 
-TEST_CASE("hard functions take no more than bisection and two") {
+TEST_CASE("hard functions take no more than bisection and six") {
     search([](double x) { return x < 3.1 ? 1.0 : -1e-9; });
     search([](double x) { return std::pow(x - 4.3, 9); });
     search([](double x) { return std::cbrt(x - 4.3); });
@@ -71,6 +72,36 @@ TEST_CASE("hard functions take no more than bisection and two") {
     search([](double x) { return x < 4.5 ? 0.0 : -1.0; });
     search([](double x) { return 1 / (x - 3.3); });
     search([](double x) { return std::sin(40 * x) + (3.5 - x); });
+}
+
+TEST_CASE("with a model of a smooth function three steps are enough") {
+    const auto wave = [](double x) { return std::sin(0.02 * x + 0.1) - 0.19; };
+    CHECK(search(wave, true).evaluations <= 3);
+    CHECK(search(wave, true, infinity).evaluations <= 4);
+    CHECK(search([](double x) { return 25 - x * x; }, true).evaluations <= 3);
+    CHECK(search([](double x) { return x + 0.001 * x * x * x - 3.9; }, true).evaluations <= 3);
+    CHECK(search([](double x) { return x - 2.0000001; }, true).evaluations <= 3);
+    CHECK(search(wave).evaluations > 3);
+}
+
+TEST_CASE("a model that misleads costs little, and one of infinite samples is none") {
+    const auto bent = [](double x) { return x < 4.1 ? 4 - x : 100 * (4.099 - x); };
+    CHECK(search(bent, true).evaluations <= 36);
+    search([](double x) { return std::cbrt(x - 4.3); }, true);
+    search([](double x) { return 3 - x; }, true, 1e300);
+    search([](double x) { return 3 - x; }, true, -1e300);
+    search([](double x) { return x < 3.1 ? 1.0 : -1e-9; }, true);
+    CrossedEdge edge;
+    edge.lower_value = 1;
+    edge.upper_value = -3;
+    predict(edge, infinity, undefined);
+    CHECK(!edge.model.is_known());
+    predict(edge, infinity, -7);
+    CHECK(edge.model.is_known());
+    CHECK(edge.model.root == doctest::Approx(0.25));
+    edge.upper_value = -infinity;
+    predict(edge, 5, -7);
+    CHECK(!edge.model.is_known());
 }
 
 TEST_CASE("a wall, where F ends") {

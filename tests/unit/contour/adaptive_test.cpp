@@ -7,6 +7,7 @@
 #include "frep/geom/bvh.h"
 #include "unit/contour/adaptive_checks.h"
 #include "unit/contour/csg_trees.h"
+#include "unit/eval/blobs.h"
 
 using namespace frep;
 using namespace frep::test;
@@ -157,6 +158,20 @@ TEST_CASE("the same bytes for every number of threads, with and without pruning"
             CHECK(full.sampled_blocks > one.sampled_blocks);
         }
     }
+}
+
+TEST_CASE("sums without their small terms give the mesh of the whole field") {
+    const auto field = sampled(frep_test::blobs(4, 80));
+    ContourOptions options{.bounds = Box3::cube(1), .cells = 70};
+    const ContourResult one = adaptive(*field, options);
+    CHECK(one.mesh.triangles.size() > 5000);
+    CHECK(same_bytes(one, adaptive(*field, options, 3)));
+    options.prune = false;
+    const ContourResult full = adaptive(*field, options, 2);
+    CHECK(full.mesh.triangles == one.mesh.triangles);
+    REQUIRE(full.mesh.vertices.size() == one.mesh.vertices.size());
+    for (std::size_t v = 0; v < full.mesh.vertices.size(); ++v)
+        REQUIRE(length(full.mesh.vertices[v] - one.mesh.vertices[v]) <= 1e-9 * 2);
 }
 
 namespace {
