@@ -1,13 +1,13 @@
 // One block of the lattice for dual contouring: its samples, the crossings of its edges, the vertices of its
 // cells. A block owns the edges and cells whose lower sample is among its 8^3 samples, so everything is
-// computed once; what lies in the next blocks is read there. Positions are kept in cells, relative to the
-// block's first sample (with layer, see grid.h). Tested by tests/unit/contour/adaptive_test.cpp.
+// computed once; what lies in the next blocks is read there. Tested by tests/unit/contour/adaptive_test.cpp.
 #pragma once
 
 #include <array>
 #include <bit>
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "frep/contour/edge_roots.h"
@@ -70,13 +70,7 @@ struct DualCell {
     std::uint8_t level = 0;       ///< its leaf has the side 2^level
     std::uint8_t wish = no_wish;  ///< the face, numbered as in dual_cell.h, through which an edge leaves it
     std::uint8_t granted = no_wish;  ///< the wish, if its leaf is this cell and the one behind that face
-    std::uint32_t vertex = 0;        ///< of its first sheet, in DualBlock::vertices
-};
-
-/// A vertex of a sheet.
-struct DualVertex {
-    Vec3 position;  ///< in cells from the block's first sample
-    Vec3 normal;    ///< outward; zero: unknown
+    std::uint32_t vertex = 0;        ///< of its first sheet, among those of the block
 };
 
 struct DualBlock {
@@ -92,7 +86,9 @@ struct DualBlock {
     std::array<std::uint64_t, 3> mergeable{};
     /// Those that did, and hold a surface.
     std::array<std::uint64_t, 3> merged{};
-    std::vector<DualVertex> vertices;
+    /// The vertices of its leaves, in the arrays of all blocks: positions in cells from the lower corner of
+    /// the leaf, normals outward (zero: unknown).
+    std::span<Vec3> vertices, vertex_normals;
     std::vector<double> vertex_attributes;
     /// Cells with wishes (by rank), and where their vertices belong.
     struct Wish {
@@ -100,8 +96,7 @@ struct DualBlock {
         Vec3 position;
     };
     std::vector<Wish> wishes;
-    std::vector<std::uint8_t> edge_states;  ///< by rank of the edge; see dual_mesh.cpp
-    RankedSet<24> kept_edges;               ///< edges whose crossing is a vertex of the mesh
+    RankedSet<24> kept_edges;  ///< edges whose crossing is a vertex of the mesh
 
     /// As new, for the block with this code; keeps its memory.
     void reset(std::uint64_t new_code);
