@@ -5,6 +5,7 @@
 #include "frep/contour/dual_block.h"
 
 #include <limits>
+#include <new>
 
 #include "frep/contour/block.h"
 #include "frep/contour/cell.h"
@@ -46,6 +47,24 @@ void DualBlock::reset(std::uint64_t new_code) {
     cells.clear();
 }
 
+StoredBlock store(const DualBlock& block, std::pmr::memory_resource& memory) {
+    void* const place = memory.allocate(sizeof(DualBlock), alignof(DualBlock));
+    return StoredBlock(new (place) DualBlock{block.code,
+                                             block.edges,
+                                             block.cell_set,
+                                             {block.roots, &memory},
+                                             {block.normals, &memory},
+                                             {block.attributes, &memory},
+                                             {block.cells, &memory},
+                                             block.mergeable,
+                                             {},
+                                             {},
+                                             {},
+                                             std::pmr::vector<double>(&memory),
+                                             std::pmr::vector<DualBlock::Wish>(&memory),
+                                             {}});
+}
+
 bool DualSampler::is_layer(const Lattice& l) const {
     for (std::size_t a = 0; a < 3; ++a) {
         const std::uint32_t e = lo_[a] + l[a];
@@ -70,7 +89,7 @@ void DualSampler::place(std::uint64_t code) {
     }
 }
 
-std::unique_ptr<DualBlock> DualSampler::sample(std::uint64_t code, SampledField& part, SampledField& field) {
+const DualBlock* DualSampler::sample(std::uint64_t code, SampledField& part, SampledField& field) {
     place(code);
     if (!take_values(code, part)) return nullptr;
     work_.reset(code);
@@ -82,7 +101,7 @@ std::unique_ptr<DualBlock> DualSampler::sample(std::uint64_t code, SampledField&
     take_normals(work_, part);
     take_attributes(work_, field);
     if (options_.tolerance > 0) find_mergeable(work_);
-    return std::make_unique<DualBlock>(work_);  // a copy: exactly as large as needed
+    return &work_;
 }
 
 /// The values at the corners of the block's cells. False when there is no surface among them.

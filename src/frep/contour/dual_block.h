@@ -7,6 +7,7 @@
 #include <bit>
 #include <cstdint>
 #include <memory>
+#include <memory_resource>
 #include <span>
 #include <vector>
 
@@ -77,10 +78,10 @@ struct DualBlock {
     std::uint64_t code = 0;
     RankedSet<24> edges;             ///< crossed edges of its own
     RankedSet<8> cell_set;           ///< crossed cells of its own
-    std::vector<double> roots;       ///< t of the inside ends, by rank of the edge
-    std::vector<Vec3> normals;       ///< outward; zero: unknown
-    std::vector<double> attributes;  ///< edge after edge, those asked for; NaN where undefined
-    std::vector<DualCell> cells;     ///< by rank
+    std::pmr::vector<double> roots;       ///< t of the inside ends, by rank of the edge
+    std::pmr::vector<Vec3> normals;       ///< outward; zero: unknown
+    std::pmr::vector<double> attributes;  ///< edge after edge, those asked for; NaN where undefined
+    std::pmr::vector<DualCell> cells;     ///< by rank
     /// Cubes of cells that may become one leaf, as far as the signs tell: bit i of entry k is the cube i, in
     /// x, y, z order, of side 2^(k + 1).
     std::array<std::uint64_t, 3> mergeable{};
@@ -89,18 +90,26 @@ struct DualBlock {
     /// The vertices of its leaves, in the arrays of all blocks: positions in cells from the lower corner of
     /// the leaf, normals outward (zero: unknown).
     std::span<Vec3> vertices, vertex_normals;
-    std::vector<double> vertex_attributes;
+    std::pmr::vector<double> vertex_attributes;
     /// Cells with wishes (by rank), and where their vertices belong.
     struct Wish {
         std::uint32_t cell = 0;
         Vec3 position;
     };
-    std::vector<Wish> wishes;
+    std::pmr::vector<Wish> wishes;
     RankedSet<24> kept_edges;  ///< edges whose crossing is a vertex of the mesh
 
     /// As new, for the block with this code; keeps its memory.
     void reset(std::uint64_t new_code);
 };
+
+/// Blocks whose memory belongs to an arena that lives longer.
+struct DestroyBlock {
+    void operator()(DualBlock* block) const { std::destroy_at(block); }
+};
+using StoredBlock = std::unique_ptr<DualBlock, DestroyBlock>;
+/// A copy of what the sampler made of a block, in `memory`, exactly as large as needed.
+StoredBlock store(const DualBlock& block, std::pmr::memory_resource& memory);
 
 struct DualOptions {
     bool cap = false;
@@ -114,10 +123,10 @@ class DualSampler {
   public:
     DualSampler(const Grid& grid, const DualOptions& options) : grid_(grid), options_(options) {}
 
-    /// The block with this code, without vertices; null when nothing crosses it. `part` is asked for values
-    /// and gradients: the field, or what stands for it in the closed box of the block (block_box of block.h).
-    /// Adds to the tallies below.
-    std::unique_ptr<DualBlock> sample(std::uint64_t code, SampledField& part, SampledField& field);
+    /// The block with this code, without vertices, until the next call; null when nothing crosses it. `part`
+    /// is asked for values and gradients: the field, or what stands for it in the closed box of the block
+    /// (block_box of block.h). Adds to the tallies below.
+    const DualBlock* sample(std::uint64_t code, SampledField& part, SampledField& field);
 
     UndefinedTally undefined;
     std::array<bool, 6> touches{};

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <atomic>
 
+#include "frep/base/large_pages.h"
 #include "frep/base/parallel.h"
 #include "frep/contour/dual_edge.h"
 
@@ -22,7 +23,7 @@ using State = EdgeStar::State;
 
 class Joiner {
   public:
-    Joiner(const Grid& grid, const DualOptions& options, std::vector<std::unique_ptr<DualBlock>> blocks,
+    Joiner(const Grid& grid, const DualOptions& options, std::vector<StoredBlock> blocks,
            const Job& job)
         : grid_(grid), options_(options), job_(job), blocks_(std::move(blocks)), index_(blocks_) {}
 
@@ -109,6 +110,7 @@ class Joiner {
         Mesh& mesh = result_.mesh;
         for (std::vector<Vec3>* v : {&mesh.vertices, &mesh.normals}) {
             v->reserve(total + total / 8);  // most crossings are taken out
+            expect_to_fill(v->data(), total * sizeof(Vec3));
             v->resize(total);
         }
         for (std::size_t i = 0; i < blocks_.size(); ++i) {
@@ -160,6 +162,8 @@ class Joiner {
     /// that its edges can make; then the parts move together.
     void make_polygons() {
         std::vector<Triangle>& triangles = result_.mesh.triangles;
+        triangles.reserve(2 * first_crossing_.back() + first_crossing_.back() / 8);  // more for fans
+        expect_to_fill(triangles.data(), triangles.capacity() * sizeof(Triangle));
         triangles.resize(2 * first_crossing_.back());
         fans_.resize(tasks());
         std::vector<std::size_t> counts(tasks());
@@ -402,7 +406,7 @@ class Joiner {
     const Grid& grid_;
     DualOptions options_;
     const Job& job_;
-    std::vector<std::unique_ptr<DualBlock>> blocks_;
+    std::vector<StoredBlock> blocks_;
     std::vector<std::vector<Fan>> fans_;  ///< by task
     BlockIndex index_;
     std::vector<std::uint32_t> first_leaf_, first_edge_;  ///< vertices, by block
@@ -420,7 +424,7 @@ std::uint64_t mixed(std::uint64_t code) {
 
 }  // namespace
 
-BlockIndex::BlockIndex(const std::vector<std::unique_ptr<DualBlock>>& blocks) {
+BlockIndex::BlockIndex(const std::vector<StoredBlock>& blocks) {
     table_.assign(std::bit_ceil(2 * blocks.size() + 1), none);
     codes_.reserve(blocks.size());
     for (std::uint32_t i = 0; i < blocks.size(); ++i) {
@@ -454,7 +458,7 @@ std::array<std::uint32_t, 27> BlockIndex::around(std::uint32_t i) const {
 }
 
 Result<DualMesh> join_blocks(const Grid& grid, const DualOptions& options,
-                             std::vector<std::unique_ptr<DualBlock>> blocks, const Job& job) {
+                             std::vector<StoredBlock> blocks, const Job& job) {
     return Joiner(grid, options, std::move(blocks), job).run();
 }
 

@@ -31,7 +31,7 @@ namespace frep::contouring {
 class BlockIndex {
   public:
     /// `blocks` must stay alive and keep their order, that of their codes.
-    explicit BlockIndex(const std::vector<std::unique_ptr<DualBlock>>& blocks);
+    explicit BlockIndex(const std::vector<StoredBlock>& blocks);
 
     static constexpr std::uint32_t none = 0xffffffffu;
     /// The position of the block with this code; none.
@@ -54,6 +54,6 @@ struct DualMesh {
 /// blocks. Errors: over_limit for more than 2^32 - 2 vertices, cancelled, invalid_argument when the intervals
 /// and the values of the field contradict each other.
 Result<DualMesh> join_blocks(const Grid& grid, const DualOptions& options,
-                             std::vector<std::unique_ptr<DualBlock>> blocks, const Job& job);
+                             std::vector<StoredBlock> blocks, const Job& job);
 
 }  // namespace frep::contouring
