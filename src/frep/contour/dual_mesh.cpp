@@ -107,17 +107,30 @@ class Joiner {
         }
         first_crossing_.push_back(crossings);
         leaves_ = static_cast<std::uint32_t>(total);
+        make_room(total, crossings);
         Mesh& mesh = result_.mesh;
-        for (std::vector<Vec3>* v : {&mesh.vertices, &mesh.normals}) {
-            v->reserve(total + total / 8);  // most crossings are taken out
-            expect_to_fill(v->data(), total * sizeof(Vec3));
-            v->resize(total);
-        }
         for (std::size_t i = 0; i < blocks_.size(); ++i) {
             blocks_[i]->vertices = {mesh.vertices.data() + first_leaf_[i], counts[i]};
             blocks_[i]->vertex_normals = {mesh.normals.data() + first_leaf_[i], counts[i]};
         }
         return true;
+    }
+
+    /// The arrays of the mesh. Their memory is asked for before any of it is written, so that it lies side by
+    /// side and fills large pages.
+    void make_room(std::size_t leaves, std::size_t crossings) {
+        Mesh& mesh = result_.mesh;
+        const std::size_t vertices = leaves + leaves / 8;  // most crossings are taken out
+        const std::size_t triangles = 2 * crossings + crossings / 8;
+        mesh.vertices.reserve(vertices);
+        mesh.normals.reserve(vertices);
+        mesh.triangles.reserve(triangles);
+        expect_to_fill(mesh.vertices.data(), vertices * sizeof(Vec3));
+        expect_to_fill(mesh.normals.data(), vertices * sizeof(Vec3));
+        expect_to_fill(mesh.triangles.data(), triangles * sizeof(Triangle));
+        mesh.vertices.resize(leaves);
+        mesh.normals.resize(leaves);
+        mesh.triangles.resize(2 * crossings);
     }
 
     /// Moves the vertices up where leaves merged.
@@ -162,9 +175,6 @@ class Joiner {
     /// that its edges can make; then the parts move together.
     void make_polygons() {
         std::vector<Triangle>& triangles = result_.mesh.triangles;
-        triangles.reserve(2 * first_crossing_.back() + first_crossing_.back() / 8);  // more for fans
-        expect_to_fill(triangles.data(), triangles.capacity() * sizeof(Triangle));
-        triangles.resize(2 * first_crossing_.back());
         fans_.resize(tasks());
         std::vector<std::size_t> counts(tasks());
         for_blocks([&](std::uint32_t begin, std::uint32_t end) {
