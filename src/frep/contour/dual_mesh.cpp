@@ -452,17 +452,19 @@ std::uint32_t BlockIndex::find(std::uint64_t code) const {
 }
 
 std::array<std::uint32_t, 27> BlockIndex::around(std::uint32_t i) const {
-    const Lattice here = morton_decode(codes_[i]);
+    // Coordinates are steps of 1 in every third bit of a code.
+    constexpr std::uint64_t every_third = 0x1249249249249249u;
+    const std::uint64_t code = codes_[i];
+    std::array<std::array<std::uint64_t, 3>, 3> parts{};  // [axis][step]; the last bit of all: beyond the lattice
+    constexpr std::uint64_t beyond = std::uint64_t{1} << 63;
+    for (std::size_t a = 0; a < 3; ++a) {
+        const std::uint64_t mask = every_third << a, own = code & mask;
+        parts[a] = {own == 0 ? beyond : (own - (std::uint64_t{1} << a)) & mask, own, ((own | ~mask) + (std::uint64_t{1} << a)) & mask};
+    }
     std::array<std::uint32_t, 27> found{};
     for (std::uint32_t n = 0; n < 27; ++n) {
-        const Lattice step{n % 3, n / 3 % 3, n / 9};
-        Lattice at{};
-        bool is_in = true;
-        for (std::size_t a = 0; a < 3; ++a) {
-            is_in = is_in && here[a] + step[a] >= 1;
-            at[a] = here[a] + step[a] - 1;
-        }
-        found[n] = is_in ? find(morton_code(at)) : none;
+        const std::uint64_t at = parts[0][n % 3] | parts[1][n / 3 % 3] | parts[2][n / 9];
+        found[n] = n == 13 ? i : (at & beyond) != 0 ? none : find(at);
     }
     return found;
 }

@@ -173,18 +173,21 @@ void DualVertices::add_crossing(const DualBlock& block, const Lattice& lower, st
     const std::size_t u = axis == 2 ? 0 : axis + 1, v = axis == 0 ? 2 : axis - 1;
     constexpr std::array<std::uint32_t, 3> steps{1, block_side, block_side * block_side};
     const std::uint32_t at = local_number(lower);  // beyond the block where a coordinate is 8
-    for (std::uint32_t side = 0; side < 4; ++side) {
-        const std::uint32_t du = side & 1, dv = side >> 1;
-        if (lower[u] - du >= block_side || lower[v] - dv >= block_side) continue;
-        const std::uint32_t number = at - du * steps[u] - dv * steps[v];
-        if (!block.cell_set.has(number)) continue;
+    const auto add = [&](std::uint32_t number, std::uint8_t edge) {
+        if (!block.cell_set.has(number)) return;
         const std::uint32_t rank = rank_of_[number];
         const DualCell& cell = block.cells[rank];
-        const std::uint8_t edge = cell_edges_at[axis][du << u | dv << v];
         const std::uint8_t sheet = patterns_[cell.signs].sheet_of[edge];
         seen_[rank] = static_cast<std::uint16_t>(seen_[rank] | 1u << edge);
         if (sheet != no_sheet) errors_[cell.vertex + sheet].add(error);
-    }
+    };
+    const bool has_u = lower[u] > 0, has_v = lower[v] > 0;
+    const bool is_in_u = lower[u] < block_side, is_in_v = lower[v] < block_side;
+    const auto& edges = cell_edges_at[axis];
+    if (is_in_u && is_in_v) add(at, edges[0]);
+    if (has_u && is_in_v) add(at - steps[u], edges[1u << u]);
+    if (is_in_u && has_v) add(at - steps[v], edges[1u << v]);
+    if (has_u && has_v) add(at - steps[u] - steps[v], edges[1u << u | 1u << v]);
 }
 
 /// Appends the crossings of a cell, all of which are there.
