@@ -77,4 +77,12 @@ Result<ContourResult> contour_adaptive(const SampledField& field, const ContourO
     return result;
 }
 
+Result<ContourResult> contour_solid(const SampledField& field, const ContourOptions& options,
+                                    const Job& job) {
+    if (options.method == ContourMethod::adaptive) return contour_adaptive(field, options, job);
+    if (options.tolerance != 0)
+        return Error{ErrorKind::invalid_argument, "a tolerance is for the adaptive method only"};
+    return contour_cells(field, options, job);
+}
+
 }  // namespace frep

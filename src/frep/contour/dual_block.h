@@ -76,8 +76,8 @@ struct DualCell {
 
 struct DualBlock {
     std::uint64_t code = 0;
-    RankedSet<24> edges;             ///< crossed edges of its own
-    RankedSet<8> cell_set;           ///< crossed cells of its own
+    RankedSet<24> edges;                  ///< crossed edges of its own
+    RankedSet<8> cell_set;                ///< crossed cells of its own
     std::pmr::vector<double> roots;       ///< t of the inside ends, by rank of the edge
     std::pmr::vector<Vec3> normals;       ///< outward; zero: unknown
     std::pmr::vector<double> attributes;  ///< edge after edge, those asked for; NaN where undefined

@@ -27,7 +27,8 @@ struct Span {
     double low = 0, high = 1, margin = 0;
 };
 
-/// Whether the edge passes through the triangle a b c, and at `at` within the span; turns of each two corners.
+/// Whether the edge passes through the triangle a b c, and at `at` within the span; turns of each two
+/// corners.
 bool pierces(const Corner& a, const Corner& b, const Corner& c, double ab, double bc, double ca,
              const Span& span, double& at) {
     if (!(ab > 0 && bc > 0 && ca > 0)) return false;
@@ -203,9 +204,9 @@ std::uint8_t EdgeStar::cut(std::uint8_t turned, const std::array<std::size_t, 4>
     }
     double at = 0, other = 0;
     if (count == 3) {
-        const bool is_good = pierces(c[0], c[1], c[2], turn(c[0], c[1]), turn(c[1], c[2]), turn(c[2], c[0]),
-                                     span, at) &&
-                             magnitude(at - root_) <= around_.keep_distance;
+        const bool is_good =
+            pierces(c[0], c[1], c[2], turn(c[0], c[1]), turn(c[1], c[2]), turn(c[2], c[0]), span, at) &&
+            magnitude(at - root_) <= around_.keep_distance;
         return is_good ? turned : static_cast<std::uint8_t>(turned | State::kept);
     }
     const Quadrilateral polygon(c);

@@ -56,7 +56,7 @@ class EdgeStar {
     /// The face between two quadrants: its normal axis, and the axis that leads away from the edge.
     struct Face {
         std::size_t normal = 0, away = 0;
-        bool is_forward = true;  ///< lies on the positive side of the edge along `away`
+        bool is_forward = true;            ///< lies on the positive side of the edge along `away`
         std::size_t below = 0, above = 0;  ///< the quadrants
     };
 
@@ -77,7 +77,7 @@ class EdgeStar {
     Signed lower_{};
     std::size_t axis_ = 0, u_ = 1, v_ = 2;
     double root_ = 0;
-    bool is_plain_ = false;  ///< four cells around the edge, each its own leaf
+    bool is_plain_ = false;                   ///< four cells around the edge, each its own leaf
     std::array<std::uint32_t, 4> indices_{};  ///< of the cells, in the region
     std::array<const Cell*, 4> cells_{};      ///< null: outside of the box
 };

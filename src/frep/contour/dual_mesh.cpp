@@ -1,6 +1,6 @@
-// Implementation of dual_mesh.h: vertices of leaves, then what becomes of each edge with the triangles of those
-// that are taken out, then the triangles around the others. Each pass works on the blocks independently and
-// writes to their own slots, most of them in the mesh itself.
+// Implementation of dual_mesh.h: vertices of leaves, then what becomes of each edge with the triangles of
+// those that are taken out, then the triangles around the others. Each pass works on the blocks independently
+// and writes to their own slots, most of them in the mesh itself.
 #include "frep/contour/dual_mesh.h"
 
 #include <algorithm>
@@ -23,8 +23,7 @@ using State = EdgeStar::State;
 
 class Joiner {
   public:
-    Joiner(const Grid& grid, const DualOptions& options, std::vector<StoredBlock> blocks,
-           const Job& job)
+    Joiner(const Grid& grid, const DualOptions& options, std::vector<StoredBlock> blocks, const Job& job)
         : grid_(grid), options_(options), job_(job), blocks_(std::move(blocks)), index_(blocks_) {}
 
     Result<DualMesh> run() {
@@ -374,8 +373,7 @@ class Joiner {
             if (fan.turned >> q & 1) out.push_back(oriented(lower, here, a, b));
             if (!(fan.open >> q & 1)) continue;
             const Fan::End& end = fan.ends[q];
-            if (end.block < fan.here.block ||
-                (end.block == fan.here.block && end.number < fan.here.number))
+            if (end.block < fan.here.block || (end.block == fan.here.block && end.number < fan.here.number))
                 continue;
             const std::uint32_t there = edge_vertex(end);
             if (a != EdgeStar::no_vertex) out.push_back(oriented(lower, here, a, there));
@@ -455,11 +453,13 @@ std::array<std::uint32_t, 27> BlockIndex::around(std::uint32_t i) const {
     // Coordinates are steps of 1 in every third bit of a code.
     constexpr std::uint64_t every_third = 0x1249249249249249u;
     const std::uint64_t code = codes_[i];
-    std::array<std::array<std::uint64_t, 3>, 3> parts{};  // [axis][step]; the last bit of all: beyond the lattice
+    std::array<std::array<std::uint64_t, 3>, 3>
+        parts{};  // [axis][step]; the last bit of all: beyond the lattice
     constexpr std::uint64_t beyond = std::uint64_t{1} << 63;
     for (std::size_t a = 0; a < 3; ++a) {
         const std::uint64_t mask = every_third << a, own = code & mask;
-        parts[a] = {own == 0 ? beyond : (own - (std::uint64_t{1} << a)) & mask, own, ((own | ~mask) + (std::uint64_t{1} << a)) & mask};
+        parts[a] = {own == 0 ? beyond : (own - (std::uint64_t{1} << a)) & mask, own,
+                    ((own | ~mask) + (std::uint64_t{1} << a)) & mask};
     }
     std::array<std::uint32_t, 27> found{};
     for (std::uint32_t n = 0; n < 27; ++n) {
@@ -469,8 +469,8 @@ std::array<std::uint32_t, 27> BlockIndex::around(std::uint32_t i) const {
     return found;
 }
 
-Result<DualMesh> join_blocks(const Grid& grid, const DualOptions& options,
-                             std::vector<StoredBlock> blocks, const Job& job) {
+Result<DualMesh> join_blocks(const Grid& grid, const DualOptions& options, std::vector<StoredBlock> blocks,
+                             const Job& job) {
     return Joiner(grid, options, std::move(blocks), job).run();
 }
 

@@ -53,7 +53,7 @@ struct DualMesh {
 /// codes and are used up. The vertices of leaves come first, then those on edges, both in the order of the
 /// blocks. Errors: over_limit for more than 2^32 - 2 vertices, cancelled, invalid_argument when the intervals
 /// and the values of the field contradict each other.
-Result<DualMesh> join_blocks(const Grid& grid, const DualOptions& options,
-                             std::vector<StoredBlock> blocks, const Job& job);
+Result<DualMesh> join_blocks(const Grid& grid, const DualOptions& options, std::vector<StoredBlock> blocks,
+                             const Job& job);
 
 }  // namespace frep::contouring

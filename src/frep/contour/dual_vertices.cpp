@@ -65,8 +65,8 @@ std::uint8_t way_out(unsigned signs, const Vec3& at, const Vec3& along) {
     return no_wish;
 }
 
-/// The point of the unit cell on the way from `anchor` to `goal` that stays on the sheet's side of its planes.
-/// The anchor lies strictly on that side.
+/// The point of the unit cell on the way from `anchor` to `goal` that stays on the sheet's side of its
+/// planes. The anchor lies strictly on that side.
 Vec3 on_sheet_side(const CellPattern& pattern, std::size_t sheet, const Vec3& anchor, const Vec3& goal) {
     double way = 1;
     for (std::size_t k = 0; k + 1 < pattern.sheets; ++k) {
@@ -200,20 +200,17 @@ void DualVertices::collect(const DualBlock& block, const NextBlocks& next, const
         const Lattice at{corner[0] + low[0], corner[1] + low[1], corner[2] + low[2]};
         const std::size_t which = at[0] / block_side | at[1] / block_side << 1 | at[2] / block_side << 2;
         const DualBlock& owner = which == 0 ? block : *next[which];
-        const std::uint32_t rank = owner.edges.rank(
-            edge_number({at[0] % block_side, at[1] % block_side, at[2] % block_side}, axis));
+        const std::uint32_t rank =
+            owner.edges.rank(edge_number({at[0] % block_side, at[1] % block_side, at[2] % block_side}, axis));
         Crossing crossing{position_of(at), owner.normals[rank], nullptr, e};
-        (axis == 0   ? crossing.point.x
-         : axis == 1 ? crossing.point.y
-                     : crossing.point.z) += owner.roots[rank];
+        (axis == 0 ? crossing.point.x : axis == 1 ? crossing.point.y : crossing.point.z) += owner.roots[rank];
         if (options_.attributes > 0) crossing.attributes = &owner.attributes[rank * options_.attributes];
         crossings_.push_back(crossing);
     }
 }
 
 std::span<const DualVertices::Crossing> DualVertices::crossings_of(const DualBlock& block,
-                                                                   const NextBlocks& next,
-                                                                   std::size_t rank) {
+                                                                   const NextBlocks& next, std::size_t rank) {
     if (keeps_crossings())
         return {crossings_.data() + first_of_[rank], crossings_.data() + first_of_[rank + 1]};
     crossings_.clear();

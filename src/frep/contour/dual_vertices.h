@@ -28,9 +28,9 @@ class DualVertices {
 
     /// Numbers the sheets of the cells of `block` in cells[].vertex and returns how many there are.
     static std::uint32_t number_sheets(DualBlock& block);
-    /// Fills vertices, vertex_normals and vertex_attributes of `block`, the spans as long as there are sheets,
-    /// from the crossings of it and the next blocks. Where leaves merge the spans become shorter. False when
-    /// a crossing is missing: the field contradicts itself.
+    /// Fills vertices, vertex_normals and vertex_attributes of `block`, the spans as long as there are
+    /// sheets, from the crossings of it and the next blocks. Where leaves merge the spans become shorter.
+    /// False when a crossing is missing: the field contradicts itself.
     bool make(DualBlock& block, const NextBlocks& next);
 
     /// Grants the wishes of `block` where that is allowed. `around`: the block and those around

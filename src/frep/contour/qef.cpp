@@ -11,8 +11,8 @@ namespace {
 constexpr double plane_angle = 0.03;
 /// Eigenvalues below this part of the largest are dropped: the square of the angle.
 constexpr double least_eigenvalue = plane_angle * plane_angle;
-/// Of the free minimum's way from the mean, along the eigenvector of the eigenvalue l (as a part of the sum of
-/// all three), 1 - (damping / (damping + l))^4 is kept: a half at l = 2e-4, all but 1e-8 at l = 0.1.
+/// Of the free minimum's way from the mean, along the eigenvector of the eigenvalue l (as a part of the sum
+/// of all three), 1 - (damping / (damping + l))^4 is kept: a half at l = 2e-4, all but 1e-8 at l = 0.1.
 constexpr double damping = 1e-3;
 /// Normals whose mean is shorter than the root of this make an edge whose line is worth knowing: of two
 /// planes, those with an angle of 0.14 between them or more.
@@ -205,8 +205,7 @@ Vec3 QuadraticError::minimum(const Box3& box, Free* without) const {
 
 /// The minimum in the box, with eigenvalues below the least dropped.
 Vec3 QuadraticError::held(const Box3& box, const Vec3& middle, const Vec3& force) const {
-    const SymmetricEigen eigen =
-        eigen_of({sums_[0], sums_[1], sums_[2], sums_[3], sums_[4], sums_[5]});
+    const SymmetricEigen eigen = eigen_of({sums_[0], sums_[1], sums_[2], sums_[3], sums_[4], sums_[5]});
     // The kept part of the matrix, with a small pull to the mean.
     Matrix kept{};
     Triple b{};

@@ -48,7 +48,8 @@ class QuadraticError {
     /// The same, and the minimum without the box.
     struct Free {
         Vec3 point;
-        Vec3 along;  ///< the direction of the planes' common line where they make a sharp edge, unit; else zero
+        Vec3 along;  ///< the direction of the planes' common line where they make a sharp edge, unit; else
+                     ///< zero
     };
     Vec3 minimum(const Box3& box, Free* free) const;
 
