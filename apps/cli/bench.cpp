@@ -19,7 +19,7 @@ namespace {
 
 struct BenchTexts {
     ModelOptions model;
-    std::optional<std::string> tasks, size, profile, repeat, bounds, output;
+    std::optional<std::string> tasks, size, profile, repeat, bounds, method, output;
     bool json = false;
 };
 
@@ -69,6 +69,9 @@ bool read_options(const BenchTexts& texts, BenchOptions& out) {
         out.box = box->box;
         if (box->is_flat) out.box.min.z = -1, out.box.max.z = 1;
     }
+    if (texts.method && *texts.method != "adaptive" && *texts.method != "cells")
+        return usage_error("--method: adaptive or cells"), false;
+    if (texts.method == "cells") out.method = ContourMethod::cells;
     return true;
 }
 
@@ -165,6 +168,7 @@ int run_bench(Arguments arguments) {
     line.text("--profile", texts.profile, "NAME", "binary32 (default) or binary64, for points and pictures");
     line.text("--repeat", texts.repeat, "K", "runs of a task after the first (default 7)");
     line.text("--bounds", texts.bounds, "BOX", "the box of the tasks (default -1,1)");
+    line.text("--method", texts.method, "METHOD", "of the task mesh: adaptive (default) or cells");
     line.text("-o,--output", texts.output, "FILE.png",
               "the last picture: inside white, or normals as colors");
     line.flag("--json", texts.json, "as one JSON object on standard output");

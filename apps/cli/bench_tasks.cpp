@@ -289,11 +289,12 @@ Result<TaskOutcome> run_mesh_task(const PreparedModel& prepared, const BenchOpti
     ContourOptions wanted;
     wanted.bounds = options.box;
     wanted.cells = options.size.value_or(128);
+    wanted.method = options.method;
     Job job;
     job.threads = options.threads;
     std::size_t triangles = 0;
     const auto time = measure(options.repeat, [&]() -> Status {
-        const auto result = contour_adaptive(**field, wanted, job);
+        const auto result = contour_solid(**field, wanted, job);
         if (!result) return result.error();
         triangles = result->mesh.triangles.size();
         return {};

@@ -17,6 +17,7 @@ struct BenchOptions {
     int repeat = 7;
     Box3 box = Box3::cube(1);  ///< where points, pixels and cells are
     int threads = 1;
+    ContourMethod method = ContourMethod::adaptive;  ///< of the task mesh
 };
 
 /// What a run of a task did, and how long it took.

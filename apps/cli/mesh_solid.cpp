@@ -87,14 +87,14 @@ class SolidRun {
         if (plan_.cells) options.cells = *plan_.cells;
         options.cell_length = plan_.cell_length;
         options.tolerance = plan_.tolerance;
+        options.method = plan_.is_adaptive ? ContourMethod::adaptive : ContourMethod::cells;
         options.cap = plan_.cap;
         options.attributes = colors ? 3 : 0;
         options.prune = plan_.prune;
         if (plan_.memory_limit) options.memory_limit = *plan_.memory_limit;
         ProgressBar bar("meshing");
         job_.on_progress = [&bar](double share) { bar.update(share); };
-        auto result =
-            plan_.is_adaptive ? contour_adaptive(field, options, job_) : contour_cells(field, options, job_);
+        auto result = contour_solid(field, options, job_);
         job_.on_progress = nullptr;
         return result;
     }

@@ -50,7 +50,7 @@ Result<ContourResult> contour(const Field& field, const ContourOptions& options,
     const AxisMap map = AxisMap::standard((*evaluator)->coordinates());
     auto sampled = make_sampled_field(std::move(*evaluator), map);
     if (!sampled) return sampled.error();
-    return contour_cells(**sampled, options, job);
+    return contour_solid(**sampled, options, job);
 }
 
 Status write(const std::string& path, const Mesh& mesh, const MeshEncodeOptions& options) {

@@ -74,7 +74,10 @@ Result<Model> compile_file(const std::string& path);
 /// Reads a file that a model in `folder` names: inside the folder, no links on the way, 1 GiB at most.
 ReadFile files_of_folder(std::string folder);
 
-/// The surface of a field of up to three coordinates (further ones frozen at 0) as a triangle mesh.
+/// The surface of a field of up to three coordinates (further ones frozen at 0) as a triangle mesh, by dual
+/// contouring: closed where the box does not cut it, without self-intersections, sharp edges kept. With
+/// options.tolerance flat parts get larger triangles; options.method chooses uniform cells.
+/// Errors: those of contour_solid() (contour/adaptive.h); invalid_argument for a field without an engine.
 Result<ContourResult> contour(const Field& field, const ContourOptions& options = {}, const Job& job = {});
 
 /// Writes a mesh, or a scene with its side files; the format follows the extension (mesh_format_from_path).

@@ -9,7 +9,8 @@ int main() {
     if (!model) return std::fputs(model.error().message.c_str(), stderr), 1;
     const auto field = model->field();
     if (!field) return std::fputs(field.error().message.c_str(), stderr), 1;
-    const auto result = frep::contour(*field, {.bounds = frep::Box3::cube(3), .cells = 16});
+    const auto result =
+        frep::contour(*field, {.bounds = frep::Box3::cube(3), .cells = 16, .tolerance = 0.01});
     if (!result) return std::fputs(result.error().message.c_str(), stderr), 1;
     const frep::MeshReport report = frep::check(result->mesh);
     std::printf("%zu triangles, closed: %d\n", report.triangles, report.closed);

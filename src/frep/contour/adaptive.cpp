@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "frep/contour/block_arena.h"
 #include "frep/contour/block_tasks.h"
 #include "frep/contour/dual_block.h"
 #include "frep/contour/dual_mesh.h"
@@ -50,14 +51,16 @@ Result<ContourResult> contour_adaptive(const SampledField& field, const ContourO
     dual.attributes = std::min(options.attributes, field.attribute_count());
     dual.margin = margin_of(*grid);
     dual.tolerance = options.tolerance / grid->cell;
-    std::vector<std::unique_ptr<DualBlock>> all(octree->blocks.size());
+    BlockArena memory;
+    std::vector<StoredBlock> all(octree->blocks.size());
     const std::size_t crossing_bytes = bytes_a_crossing + dual.attributes * bytes_an_attribute;
     const BlockFindings findings = for_blocks(
         {*grid, octree->blocks, fields, options.prune, options.memory_limit / crossing_bytes, 0.8, true}, job,
         [&](SampledField&) { return DualSampler(*grid, dual); },
-        [&](DualSampler& sampler, std::size_t i, const BlockFields& block) {
-            all[i] = sampler.sample(octree->blocks[i], block);
-            return all[i] ? all[i]->roots.size() : 0;
+        [&](DualSampler& sampler, std::size_t i, const BlockFields& fields_of_block) {
+            const DualBlock* const block = sampler.sample(octree->blocks[i], fields_of_block);
+            if (block) all[i] = store(*block, memory);
+            return block ? block->roots.size() : 0;
         });
     if (const Status status = finished(findings, job); !status) return status.error();
     std::erase(all, nullptr);
@@ -72,6 +75,14 @@ Result<ContourResult> contour_adaptive(const SampledField& field, const ContourO
     add_findings(findings, *octree, result);
     job.report(1);
     return result;
+}
+
+Result<ContourResult> contour_solid(const SampledField& field, const ContourOptions& options,
+                                    const Job& job) {
+    if (options.method == ContourMethod::adaptive) return contour_adaptive(field, options, job);
+    if (options.tolerance != 0)
+        return Error{ErrorKind::invalid_argument, "a tolerance is for the adaptive method only"};
+    return contour_cells(field, options, job);
 }
 
 }  // namespace frep

@@ -21,4 +21,7 @@ namespace frep {
 Result<ContourResult> contour_adaptive(const SampledField& field, const ContourOptions& options,
                                        const Job& job);
 
+/// By the method of the options. Errors: as those of the two; invalid_argument for a tolerance with cells.
+Result<ContourResult> contour_solid(const SampledField& field, const ContourOptions& options, const Job& job);
+
 }  // namespace frep

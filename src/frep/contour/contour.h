@@ -19,12 +19,18 @@
 
 namespace frep {
 
+enum class ContourMethod {
+    adaptive,  ///< dual contouring: keeps sharp edges, no self-intersections (adaptive.h)
+    cells,     ///< polygons in uniform cells (below)
+};
+
 struct ContourOptions {
     Box3 bounds = Box3::cube(10);
     int cells = 96;          ///< cubic cells along the longest side
     double cell_length = 0;  ///< > 0: the side of a cell, in place of `cells`
     double tolerance = 0;    ///< of contour_adaptive: cells may merge where the mesh stays about this near
-    bool cap = false;        ///< close the shape where the box cuts it
+    ContourMethod method = ContourMethod::adaptive;  ///< of contour_solid and contour
+    bool cap = false;                                ///< close the shape where the box cuts it
     /// Attributes s[1], s[2], ... to take at the vertices, as many as the field has of them. They are taken
     /// at the inside end of the edge's bracket, a hair inside the surface.
     std::size_t attributes = 0;

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <bit>
 #include <limits>
+#include <new>
 
 #include "frep/contour/block.h"
 #include "frep/contour/cell.h"
@@ -48,6 +49,24 @@ void DualBlock::reset(std::uint64_t new_code) {
     cells.clear();
 }
 
+StoredBlock store(const DualBlock& block, std::pmr::memory_resource& memory) {
+    void* const place = memory.allocate(sizeof(DualBlock), alignof(DualBlock));
+    return StoredBlock(new (place) DualBlock{block.code,
+                                             block.edges,
+                                             block.cell_set,
+                                             {block.roots, &memory},
+                                             {block.normals, &memory},
+                                             {block.attributes, &memory},
+                                             {block.cells, &memory},
+                                             block.mergeable,
+                                             {},
+                                             {},
+                                             {},
+                                             std::pmr::vector<double>(&memory),
+                                             std::pmr::vector<DualBlock::Wish>(&memory),
+                                             {}});
+}
+
 bool DualSampler::is_layer(const Lattice& l) const {
     for (std::size_t a = 0; a < 3; ++a) {
         const std::uint32_t e = lo_[a] + l[a];
@@ -72,7 +91,7 @@ void DualSampler::place(std::uint64_t code) {
     }
 }
 
-std::unique_ptr<DualBlock> DualSampler::sample(std::uint64_t code, const BlockFields& fields) {
+const DualBlock* DualSampler::sample(std::uint64_t code, const BlockFields& fields) {
     place(code);
     if (!take_values(code, fields.signs)) return nullptr;
     work_.reset(code);
@@ -84,7 +103,7 @@ std::unique_ptr<DualBlock> DualSampler::sample(std::uint64_t code, const BlockFi
     take_normals(work_, fields.part);
     take_attributes(work_, fields.whole);
     if (options_.tolerance > 0) find_mergeable(work_);
-    return std::make_unique<DualBlock>(work_);  // a copy: exactly as large as needed
+    return &work_;
 }
 
 /// The values at the corners of the block's cells. False when there is no surface among them.

@@ -1,13 +1,14 @@
 // One block of the lattice for dual contouring: its samples, the crossings of its edges, the vertices of its
 // cells. A block owns the edges and cells whose lower sample is among its 8^3 samples, so everything is
-// computed once; what lies in the next blocks is read there. Positions are kept in cells, relative to the
-// block's first sample (with layer, see grid.h). Tested by tests/unit/contour/adaptive_test.cpp.
+// computed once; what lies in the next blocks is read there. Tested by tests/unit/contour/adaptive_test.cpp.
 #pragma once
 
 #include <array>
 #include <bit>
 #include <cstdint>
 #include <memory>
+#include <memory_resource>
+#include <span>
 #include <vector>
 
 #include "frep/contour/block_tasks.h"
@@ -71,42 +72,45 @@ struct DualCell {
     std::uint8_t level = 0;       ///< its leaf has the side 2^level
     std::uint8_t wish = no_wish;  ///< the face, numbered as in dual_cell.h, through which an edge leaves it
     std::uint8_t granted = no_wish;  ///< the wish, if its leaf is this cell and the one behind that face
-    std::uint32_t vertex = 0;        ///< of its first sheet, in DualBlock::vertices
-};
-
-/// A vertex of a sheet.
-struct DualVertex {
-    Vec3 position;  ///< in cells from the block's first sample
-    Vec3 normal;    ///< outward; zero: unknown
+    std::uint32_t vertex = 0;        ///< of its first sheet, among those of the block
 };
 
 struct DualBlock {
     std::uint64_t code = 0;
-    RankedSet<24> edges;             ///< crossed edges of its own
-    RankedSet<8> cell_set;           ///< crossed cells of its own
-    std::vector<double> roots;       ///< t of the inside ends, by rank of the edge
-    std::vector<Vec3> normals;       ///< outward; zero: unknown
-    std::vector<double> attributes;  ///< edge after edge, those asked for; NaN where undefined
-    std::vector<DualCell> cells;     ///< by rank
+    RankedSet<24> edges;                  ///< crossed edges of its own
+    RankedSet<8> cell_set;                ///< crossed cells of its own
+    std::pmr::vector<double> roots;       ///< t of the inside ends, by rank of the edge
+    std::pmr::vector<Vec3> normals;       ///< outward; zero: unknown
+    std::pmr::vector<double> attributes;  ///< edge after edge, those asked for; NaN where undefined
+    std::pmr::vector<DualCell> cells;     ///< by rank
     /// Cubes of cells that may become one leaf, as far as the signs tell: bit i of entry k is the cube i, in
     /// x, y, z order, of side 2^(k + 1).
     std::array<std::uint64_t, 3> mergeable{};
     /// Those that did, and hold a surface.
     std::array<std::uint64_t, 3> merged{};
-    std::vector<DualVertex> vertices;
-    std::vector<double> vertex_attributes;
+    /// The vertices of its leaves, in the arrays of all blocks: positions in cells from the lower corner of
+    /// the leaf, normals outward (zero: unknown).
+    std::span<Vec3> vertices, vertex_normals;
+    std::pmr::vector<double> vertex_attributes;
     /// Cells with wishes (by rank), and where their vertices belong.
     struct Wish {
         std::uint32_t cell = 0;
         Vec3 position;
     };
-    std::vector<Wish> wishes;
-    std::vector<std::uint8_t> edge_states;  ///< by rank of the edge; see dual_mesh.cpp
-    RankedSet<24> kept_edges;               ///< edges whose crossing is a vertex of the mesh
+    std::pmr::vector<Wish> wishes;
+    RankedSet<24> kept_edges;  ///< edges whose crossing is a vertex of the mesh
 
     /// As new, for the block with this code; keeps its memory.
     void reset(std::uint64_t new_code);
 };
+
+/// Blocks whose memory belongs to an arena that lives longer.
+struct DestroyBlock {
+    void operator()(DualBlock* block) const { std::destroy_at(block); }
+};
+using StoredBlock = std::unique_ptr<DualBlock, DestroyBlock>;
+/// A copy of what the sampler made of a block, in `memory`, exactly as large as needed.
+StoredBlock store(const DualBlock& block, std::pmr::memory_resource& memory);
 
 struct DualOptions {
     bool cap = false;
@@ -120,10 +124,11 @@ class DualSampler {
   public:
     DualSampler(const Grid& grid, const DualOptions& options) : grid_(grid), options_(options) {}
 
-    /// The block with this code, without vertices; null when nothing crosses it. The fields are the field
-    /// itself or what stands for it in the closed box of the block (block_box of block.h): the one for signs
-    /// is asked at the corners of cells, the part for roots and gradients. Adds to the tallies below.
-    std::unique_ptr<DualBlock> sample(std::uint64_t code, const BlockFields& fields);
+    /// The block with this code, without vertices, until the next call; null when nothing crosses it. The
+    /// fields are the field itself or what stands for it in the closed box of the block (block_box of
+    /// block.h): the one for signs is asked at the corners of cells, the part for roots and gradients. Adds
+    /// to the tallies below.
+    const DualBlock* sample(std::uint64_t code, const BlockFields& fields);
 
     UndefinedTally undefined;
     std::array<bool, 6> touches{};

@@ -5,7 +5,6 @@
 #include <algorithm>
 
 #include "frep/base/result.h"
-#include "frep/contour/cell.h"
 
 namespace frep::contouring {
 
@@ -106,6 +105,7 @@ CellPattern make_pattern(unsigned inside) {
             const std::size_t face = common_face(a, b);
             FREP_CHECK(face < 6);
             pattern.sheet_of[a] = s;
+            pattern.edges = static_cast<std::uint16_t>(pattern.edges | 1u << a);
             pattern.partner[face][a] = b;
             pattern.partner[face][b] = a;
             ++arcs[face];
@@ -136,20 +136,6 @@ const std::array<CellPattern, 256>& cell_patterns() {
         return all;
     }();
     return table;
-}
-
-std::uint8_t cell_edge_at(std::size_t axis, unsigned lower_bits) {
-    static constexpr std::array<std::array<std::uint8_t, 8>, 3> table = [] {
-        std::array<std::array<std::uint8_t, 8>, 3> numbers{};
-        for (std::uint8_t e = 0; e < 12; ++e) {
-            const auto& low = corner_offsets[edge_corners[e][0]];
-            const auto& high = corner_offsets[edge_corners[e][1]];
-            const std::size_t a = low[0] != high[0] ? 0 : low[1] != high[1] ? 1 : 2;
-            numbers[a][low[0] | low[1] << 1 | low[2] << 2] = e;
-        }
-        return numbers;
-    }();
-    return table[axis][lower_bits];
 }
 
 }  // namespace frep::contouring

@@ -9,6 +9,8 @@
 #include <array>
 #include <cstdint>
 
+#include "frep/contour/cell.h"
+
 namespace frep::contouring {
 
 inline constexpr std::uint8_t no_sheet = 255;
@@ -24,6 +26,7 @@ struct SheetPlane {
 struct CellPattern {
     std::uint8_t sheets = 0;                  ///< 0 to 4
     std::uint8_t ambiguous_faces = 0;         ///< bits: faces with two arcs
+    std::uint16_t edges = 0;                  ///< bits: edges with a crossing
     std::array<std::uint8_t, 12> sheet_of{};  ///< by edge; no_sheet: no crossing
     std::array<std::array<std::uint8_t, 12>, 6>
         partner{};  ///< [face][edge]: the other end of its arc; no_edge
@@ -39,7 +42,25 @@ const std::array<CellPattern, 256>& cell_patterns();
 /// One of them. Loops do better to keep the reference to all.
 inline const CellPattern& cell_pattern(unsigned inside) { return cell_patterns()[inside]; }
 
-/// The edge along `axis` whose lower corner has the offsets of the bits (x 1, y 2, z 4) from corner 0.
-std::uint8_t cell_edge_at(std::size_t axis, unsigned lower_bits);
+/// The axis of each edge of a cell.
+inline constexpr std::array<std::uint8_t, 12> edge_axes = [] {
+    std::array<std::uint8_t, 12> axes{};
+    for (std::size_t e = 0; e < 12; ++e) {
+        const auto& low = corner_offsets[edge_corners[e][0]];
+        const auto& high = corner_offsets[edge_corners[e][1]];
+        axes[e] = low[0] != high[0] ? 0 : low[1] != high[1] ? 1 : 2;
+    }
+    return axes;
+}();
+
+/// [axis][bits]: the edge along `axis` whose lower corner has the offsets of the bits (x 1, y 2, z 4).
+inline constexpr std::array<std::array<std::uint8_t, 8>, 3> cell_edges_at = [] {
+    std::array<std::array<std::uint8_t, 8>, 3> numbers{};
+    for (std::uint8_t e = 0; e < 12; ++e) {
+        const auto& low = corner_offsets[edge_corners[e][0]];
+        numbers[edge_axes[e]][low[0] | low[1] << 1 | low[2] << 2] = e;
+    }
+    return numbers;
+}();
 
 }  // namespace frep::contouring

@@ -2,17 +2,13 @@
 #include "frep/contour/dual_edge.h"
 
 #include <algorithm>
-#include <span>
 
 #include "frep/base/result.h"
-#include "frep/contour/cell.h"
-#include "frep/contour/dual_cell.h"
 
 namespace frep::contouring {
 
 namespace {
 
-double component(const Vec3& v, std::size_t axis) { return axis == 0 ? v.x : axis == 1 ? v.y : v.z; }
 double magnitude(double v) { return v < 0 ? -v : v; }
 
 /// Whether the quadrants lie on the positive side of the edge: counter-clockwise from (+, +).
@@ -31,37 +27,55 @@ struct Span {
     double low = 0, high = 1, margin = 0;
 };
 
-/// Where the edge passes through the triangle, if it is within the span.
-bool pierces(const Corner& a, const Corner& b, const Corner& c, const Span& span, double& at) {
-    const double wa = turn(b, c), wb = turn(c, a), wc = turn(a, b);
-    if (!(wa > 0 && wb > 0 && wc > 0)) return false;
-    at = (wa * a.h + wb * b.h + wc * c.h) / (wa + wb + wc);
+/// Whether the edge passes through the triangle a b c, and at `at` within the span; turns of each two
+/// corners.
+bool pierces(const Corner& a, const Corner& b, const Corner& c, double ab, double bc, double ca,
+             const Span& span, double& at) {
+    if (!(ab > 0 && bc > 0 && ca > 0)) return false;
+    at = (bc * a.h + ca * b.h + ab * c.h) / (ab + bc + ca);
     return at >= span.low + span.margin && at <= span.high - span.margin;
 }
 
-/// Whether the line from c to a passes the half plane of n inside of the triangle of n and the edge.
-bool passes(const Corner& c, const Corner& n, const Corner& a, const Span& span) {
+/// Whether the line from c to a passes the half plane of n inside of the triangle of n and the edge, at the
+/// part ca / (cn + na) of the way from the edge to n; turns of each two corners.
+bool passes(const Corner& c, const Corner& n, const Corner& a, double cn, double na, double ca,
+            const Span& span) {
     constexpr double largest = 0.999;  // beyond that a, n and c are nearly on one line
-    const double cn = turn(c, n), na = turn(n, a), ca = turn(c, a);
-    if (!(cn > 0 && na > 0 && ca > 0)) return false;
-    const double part = ca / (cn + na);  // the crossing's distance from the edge, by that of n
-    if (!(part <= largest)) return false;
-    const double h = c.h + cn / (cn + na) * (a.h - c.h);
-    const double low = span.low + part * (n.h - span.low), high = span.high + part * (n.h - span.high);
-    const double margin = span.margin * (1 - part);
-    return h >= low + margin && h <= high - margin;
+    const double whole = cn + na;
+    if (!(cn > 0 && na > 0 && ca > 0 && ca <= largest * whole)) return false;
+    // All lengths times `whole`.
+    const double h = c.h * whole + cn * (a.h - c.h);
+    const double margin = span.margin * (whole - ca);
+    return h >= span.low * whole + ca * (n.h - span.low) + margin &&
+           h <= span.high * whole + ca * (n.h - span.high) - margin;
 }
 
-/// Whether the polygon a b c d may be cut along a - c; `at`: where the edge passes.
-bool cuts(const Corner& a, const Corner& b, const Corner& c, const Corner& d, const Span& span, double& at) {
-    constexpr double nothing = 1e-12;  // the cut meets the edge itself
-    const double side = turn(c, a);
-    if (side > nothing) return pierces(a, b, c, span, at) && passes(c, d, a, span);
-    if (side < -nothing) return pierces(a, c, d, span, at) && passes(a, b, c, span);
-    const double from_a = magnitude(a.u) + magnitude(a.v), from_c = magnitude(c.u) + magnitude(c.v);
-    at = a.h + from_a / (from_a + from_c) * (c.h - a.h);
-    return at >= span.low + span.margin && at <= span.high - span.margin;
-}
+/// The polygon of four corners, with the turns of neighbours.
+struct Quadrilateral {
+    std::array<Corner, 4> c;
+    std::array<double, 4> turns{};  ///< of corner i and the next
+
+    explicit Quadrilateral(const std::array<Corner, 4>& corners) : c(corners) {
+        for (std::size_t i = 0; i < 4; ++i) turns[i] = turn(c[i], c[(i + 1) % 4]);
+    }
+    /// Whether it may be cut from corner i to the second next; `at`: where the edge passes.
+    bool cuts(std::size_t i, const Span& span, double& at) const {
+        constexpr double nothing = 1e-12;  // the cut meets the edge itself
+        double side = turn(c[(i + 2) % 4], c[i]);
+        if (magnitude(side) <= nothing) {
+            const Corner &a = c[i], &b = c[(i + 2) % 4];
+            const double from_a = magnitude(a.u) + magnitude(a.v), from_b = magnitude(b.u) + magnitude(b.v);
+            at = a.h + from_a / (from_a + from_b) * (b.h - a.h);
+            return at >= span.low + span.margin && at <= span.high - span.margin;
+        }
+        // The edge passes through the triangle of i, j, k.
+        if (side < 0) i = (i + 2) % 4;
+        side = magnitude(side);
+        const std::size_t j = (i + 1) % 4, k = (i + 2) % 4, l = (i + 3) % 4;
+        return pierces(c[i], c[j], c[k], turns[i], turns[j], side, span, at) &&
+               passes(c[k], c[l], c[i], turns[k], turns[l], side, span);
+    }
+};
 
 double squared_distance(const Corner& a, const Corner& b) {
     return (a.u - b.u) * (a.u - b.u) + (a.v - b.v) * (a.v - b.v) + (a.h - b.h) * (a.h - b.h);
@@ -69,24 +83,51 @@ double squared_distance(const Corner& a, const Corner& b) {
 
 }  // namespace
 
-bool EdgeStar::look(std::uint32_t number) {
+bool EdgeStar::look(std::uint32_t number, double root) {
     const Lattice lower = local_of(number / 3);
     for (std::size_t a = 0; a < 3; ++a) lower_[a] = static_cast<std::int32_t>(lower[a]);
     axis_ = number % 3;
-    cell_ = number / 3;
-    u_ = (axis_ + 1) % 3;
-    v_ = (axis_ + 2) % 3;
-    const DualBlock& block = *around_.blocks[13];
-    root_ = block.roots[block.edges.rank(number)];
+    u_ = axis_ == 2 ? 0 : axis_ + 1;
+    v_ = axis_ == 0 ? 2 : axis_ - 1;
+    root_ = root;
+    const std::uint32_t at = DualRegion::index(lower), du = DualRegion::steps[u_], dv = DualRegion::steps[v_];
+    indices_ = {at, at - du, at - du - dv, at - dv};
+    is_plain_ = region_.is_plain();
     bool found = false;
     for (std::size_t q = 0; q < 4; ++q) {
-        if (!find_side(q)) return false;
-        const Side& side = sides_[q];
-        if (!side.cell) continue;
-        found = true;
-        lower_is_inside_ = (side.cell->signs >> edge_corners[side.edge][0] & 1u) != 0;
+        cells_[q] = region_.cell(indices_[q]);
+        found = found || cells_[q];
+        if (cells_[q]) continue;
+        is_plain_ = false;
+        if (around_.is_inner || outside_of_box(side(q).corner) == 0) return false;
     }
     return found;
+}
+
+EdgeStar::Side EdgeStar::side(std::size_t q) const {
+    Side side{cells_[q], lower_, 0};
+    side.corner[u_] -= positive_u[q] ? 0 : 1;
+    side.corner[v_] -= positive_v[q] ? 0 : 1;
+    side.edge = cell_edges_at[axis_][(positive_u[q] ? 0u : 1u << u_) | (positive_v[q] ? 0u : 1u << v_)];
+    return side;
+}
+
+std::uint32_t EdgeStar::vertex(std::size_t q) const {
+    if (!cells_[q]) return no_vertex;
+    if (cells_[q]->level > 0 || cells_[q]->sheets == 1) return cells_[q]->vertex;
+    return cells_[q]->vertex + patterns_[cells_[q]->signs].sheet_of[side(q).edge];
+}
+
+bool EdgeStar::lower_is_inside() const {
+    for (std::size_t q = 0; q < 4; ++q) {
+        if (cells_[q]) return (cells_[q]->signs >> edge_corners[side(q).edge][0] & 1u) != 0;
+    }
+    return false;  // look() found one
+}
+
+/// Equal for quadrants of one leaf, and for those that are outside of the box by the same sides.
+std::uint32_t EdgeStar::key(std::size_t q) const {
+    return cells_[q] ? vertex(q) : ~outside_of_box(side(q).corner);  // vertices never get that far
 }
 
 /// Bits that tell by which sides of the box a cell is outside of it; 0: it is inside.
@@ -101,146 +142,76 @@ std::uint32_t EdgeStar::outside_of_box(const Signed& corner) const {
     return outside;
 }
 
-bool EdgeStar::find_side(std::size_t q) {
-    Side& side = sides_[q];
-    side = {};
-    side.corner = lower_;
-    std::size_t which = 13;
-    std::uint32_t cell = cell_;
-    constexpr std::array<std::size_t, 3> block_steps{1, 3, 9};
-    constexpr std::array<std::uint32_t, 3> cell_steps{1, block_side, block_side * block_side};
-    const auto step_back = [&](std::size_t axis) {
-        --side.corner[axis];
-        cell -= cell_steps[axis];
-        if (side.corner[axis] >= 0) return;
-        which -= block_steps[axis];
-        cell += block_side * cell_steps[axis];
-        side.block_corner[axis] = -static_cast<std::int32_t>(block_side);
-    };
-    if (!positive_u[q]) step_back(u_);
-    if (!positive_v[q]) step_back(v_);
-    if (!around_.is_inner) {
-        const std::uint32_t outside = outside_of_box(side.corner);
-        side.key = ~outside;  // vertices never get that far
-        if (outside != 0) return true;
-    }
-    side.block = around_.blocks[which];
-    if (!side.block || !side.block->cell_set.has(cell)) return false;
-    side.cell = &side.block->cells[side.block->cell_set.rank(cell)];
-    const unsigned bits = (positive_u[q] ? 0u : 1u << u_) | (positive_v[q] ? 0u : 1u << v_);
-    side.edge = cell_edge_at(axis_, bits);
-    const CellPattern& pattern = patterns_[side.cell->signs];
-    side.sheets = pattern.sheets;
-    if (pattern.sheet_of[side.edge] == no_sheet) return false;
-    const std::uint32_t sheet = side.cell->level > 0 ? 0 : pattern.sheet_of[side.edge];
-    side.local_vertex = side.cell->vertex + sheet;
-    side.vertex = around_.first_vertex[which] + side.local_vertex;
-    side.key = side.vertex;
-    return true;
-}
-
-bool EdgeStar::is_one_leaf(std::size_t q) const { return sides_[q].key == sides_[(q + 1) % 4].key; }
-
 EdgeStar::Face EdgeStar::face(std::size_t q) const {
-    const Side& here = sides_[q];
-    const Side& next = sides_[(q + 1) % 4];
-    switch (q) {
-        case 0:
-            return {u_, v_, true, &next, &here};
-        case 1:
-            return {v_, u_, false, &next, &here};
-        case 2:
-            return {u_, v_, false, &here, &next};
-        default:
-            return {v_, u_, true, &here, &next};
-    }
+    const std::size_t next = (q + 1) % 4;
+    const bool crosses_u = q % 2 == 0;
+    return {crosses_u ? u_ : v_, crosses_u ? v_ : u_, q == 0 || q == 3, q < 2 ? next : q, q < 2 ? q : next};
 }
 
-bool EdgeStar::is_ambiguous(const Face& face) const {
-    const Side& side = *face.above;
-    return side.cell->level == 0 && face.below->cell->level == 0 &&
-           (patterns_[side.cell->signs].ambiguous_faces >> (2 * face.normal) & 1) != 0;
-}
-
-/// Computed in the frame of the block of the cell below the face, so that both ends of the arc find the same.
-bool EdgeStar::is_turned(std::size_t q) const {
-    const Face f = face(q);
-    if (!f.below->cell || !f.above->cell || is_one_leaf(q)) return false;
-    if (f.below->sheets != 1 || f.above->sheets != 1 || is_ambiguous(f)) return false;
-    const Side& small = f.below->cell->level <= f.above->cell->level ? *f.below : *f.above;
-    const Vec3 a = f.below->block->vertices[f.below->local_vertex].position;
-    const Signed& origin = f.below->block_corner;
-    const Vec3 shift{static_cast<double>(f.above->block_corner[0] - origin[0]),
-                     static_cast<double>(f.above->block_corner[1] - origin[1]),
-                     static_cast<double>(f.above->block_corner[2] - origin[2])};
-    const Vec3 b = f.above->block->vertices[f.above->local_vertex].position + shift;
-    const double plane = static_cast<double>(lower_[f.normal] - origin[f.normal]);
-    const double part = (plane - component(a, f.normal)) / (component(b, f.normal) - component(a, f.normal));
-    const Vec3 at = a + (b - a) * part;
-    const double margin = 0.5 * around_.margin;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-        if (axis == f.normal) continue;
-        double start = static_cast<double>(small.leaf_start(axis) - origin[axis]);
-        double end = start + static_cast<double>(small.size());
-        // Both leaves may go on behind faces side by side (dual_vertices.h); then so does their common face.
-        if (f.below->cell->granted == f.above->cell->granted) {
-            if (small.cell->granted == 2 * axis) start -= 1;
-            if (small.cell->granted == 2 * axis + 1) end += 1;
+/// Bit q: the arc between the quadrant q and the next is turned.
+std::uint8_t EdgeStar::turned_arcs() const {
+    unsigned turned = 0;
+    for (std::size_t q = 0; q < 4; ++q) {
+        const std::size_t above = q < 2 ? q : (q + 1) % 4;
+        const bool is_turned = region_.is_turned(indices_[above], q % 2 == 0 ? u_ : v_);
+        if (is_plain_) {
+            turned |= static_cast<unsigned>(is_turned) << q;
+        } else if (cells_[q] && cells_[(q + 1) % 4] && !is_one_leaf(q) && is_turned) {
+            turned |= 1u << q;
         }
-        const double c = component(at, axis);
-        if (!(c >= start + margin && c <= end - margin)) return false;
     }
-    return true;
-}
-
-/// The place of a leaf's vertex from the first sample of the block in the middle.
-Vec3 EdgeStar::place(const Side& side) const {
-    const Signed& c = side.block_corner;
-    const Vec3 shift{static_cast<double>(c[0]), static_cast<double>(c[1]), static_cast<double>(c[2])};
-    return side.block->vertices[side.local_vertex].position + shift;
+    return static_cast<std::uint8_t>(turned);
 }
 
 std::uint8_t EdgeStar::state() const {
-    std::uint8_t turned = 0;
-    std::array<std::size_t, 4> corners{};
-    std::size_t count = 0, open = 0;
-    bool is_whole = true;
+    const std::uint8_t turned = turned_arcs();
+    std::array<std::size_t, 4> corners{0, 1, 2, 3};
+    if (is_plain_) return turned == State::turned ? cut(turned, corners, 4) : turned | State::kept;
+    std::size_t count = 0;
+    bool is_open = false;
     for (std::size_t q = 0; q < 4; ++q) {
-        is_whole = is_whole && sides_[q].cell;
+        is_open = is_open || !cells_[q];
         if (is_one_leaf(q)) continue;
         corners[count++] = q;
-        if (is_turned(q)) {
-            turned = static_cast<std::uint8_t>(turned | 1u << q);
-        } else {
-            ++open;
-        }
+        is_open = is_open || !(turned >> q & 1);
     }
     if (count < 3) return State::dead;
-    if (!is_whole || open > 0) return turned | State::kept;
-    return cut(turned, {corners.data(), count});
+    return is_open ? turned | State::kept : cut(turned, corners, count);
 }
 
 /// The state of an edge all of whose arcs are turned.
-std::uint8_t EdgeStar::cut(std::uint8_t turned, std::span<const std::size_t> quadrants) const {
+std::uint8_t EdgeStar::cut(std::uint8_t turned, const std::array<std::size_t, 4>& quadrants,
+                           std::size_t count) const {
     std::array<Corner, 4> c{};
     Span span{-1e9, 1e9, 0.5 * around_.margin};
-    for (std::size_t i = 0; i < quadrants.size(); ++i) {
-        const Side& side = sides_[quadrants[i]];
-        const Vec3 p = place(side);
-        c[i] = {component(p, u_) - lower_[u_], component(p, v_) - lower_[v_],
-                component(p, axis_) - lower_[axis_]};
-        const double start = static_cast<double>(side.leaf_start(axis_) - lower_[axis_]);
-        span.low = std::max(span.low, start);
-        span.high = std::min(span.high, start + static_cast<double>(side.size()));
+    for (std::size_t i = 0; i < count; ++i) {
+        const std::size_t q = quadrants[i];
+        const Cell& cell = *cells_[q];
+        c[i] = {cell.position[u_], cell.position[v_], cell.position[axis_]};
+        std::int32_t start = 0;
+        if (cell.level == 0) {
+            c[i].u -= positive_u[q] ? 0 : 1;
+            c[i].v -= positive_v[q] ? 0 : 1;
+        } else {
+            const Side leaf = side(q);
+            start = leaf.leaf_start(axis_) - lower_[axis_];
+            c[i].u += leaf.leaf_start(u_) - lower_[u_];
+            c[i].v += leaf.leaf_start(v_) - lower_[v_];
+            c[i].h += start;
+        }
+        span.low = std::max(span.low, static_cast<double>(start));
+        span.high = std::min(span.high, static_cast<double>(start + (1 << cell.level)));
     }
     double at = 0, other = 0;
-    if (quadrants.size() == 3) {
+    if (count == 3) {
         const bool is_good =
-            pierces(c[0], c[1], c[2], span, at) && magnitude(at - root_) <= around_.keep_distance;
+            pierces(c[0], c[1], c[2], turn(c[0], c[1]), turn(c[1], c[2]), turn(c[2], c[0]), span, at) &&
+            magnitude(at - root_) <= around_.keep_distance;
         return is_good ? turned : static_cast<std::uint8_t>(turned | State::kept);
     }
-    const bool first = cuts(c[0], c[1], c[2], c[3], span, at);
-    const bool second = cuts(c[1], c[2], c[3], c[0], span, other);
+    const Quadrilateral polygon(c);
+    const bool first = polygon.cuts(0, span, at);
+    const bool second = polygon.cuts(1, span, other);
     const double first_off = first ? magnitude(at - root_) : 1e9;
     const double second_off = second ? magnitude(other - root_) : 1e9;
     if (std::min(first_off, second_off) > around_.keep_distance) return turned | State::kept;
@@ -253,22 +224,17 @@ std::uint8_t EdgeStar::cut(std::uint8_t turned, std::span<const std::size_t> qua
 
 EdgeName EdgeStar::partner(std::size_t q) const {
     const Face f = face(q);
-    const bool takes_above =
-        !f.below->cell || (f.above->cell && f.above->cell->level <= f.below->cell->level);
-    const Side& small = takes_above ? *f.above : *f.below;
+    const Cell *below = cells_[f.below], *above = cells_[f.above];
+    const bool takes_above = !below || (above && above->level <= below->level);
+    const Side small = side(takes_above ? f.above : f.below);
+    if (small.cell->level > 0) return crossing_on_sides(f, small);
+    const std::size_t number = 2 * f.normal + (takes_above ? 0 : 1);
+    const std::uint8_t edge = patterns_[small.cell->signs].partner[number][small.edge];
+    FREP_CHECK(edge != no_edge);
+    const auto& low = corner_offsets[edge_corners[edge][0]];
     Signed at{};
-    std::size_t axis = 0;
-    if (small.cell->level == 0) {
-        const std::size_t number = 2 * f.normal + (takes_above ? 0 : 1);
-        const std::uint8_t edge = patterns_[small.cell->signs].partner[number][small.edge];
-        FREP_CHECK(edge != no_edge);
-        const auto& low = corner_offsets[edge_corners[edge][0]];
-        const auto& high = corner_offsets[edge_corners[edge][1]];
-        axis = low[0] != high[0] ? 0 : low[1] != high[1] ? 1 : 2;
-        for (std::size_t a = 0; a < 3; ++a) at[a] = small.corner[a] + low[a];
-        return name_of(at, axis);
-    }
-    return crossing_on_sides(f, small);
+    for (std::size_t a = 0; a < 3; ++a) at[a] = small.corner[a] + low[a];
+    return name_of(at, edge_axes[edge]);
 }
 
 /// The name of the edge from a sample of the block in the middle or near it.
@@ -292,7 +258,7 @@ bool EdgeStar::is_crossed(const EdgeName& name) const {
 
 /// The crossing on the other sides of the face of a leaf larger than a cell; there is one.
 EdgeName EdgeStar::crossing_on_sides(const Face& f, const Side& small) const {
-    const std::int32_t size = small.size();
+    const std::int32_t size = 1 << small.cell->level;
     const std::int32_t along = small.leaf_start(axis_), across = small.leaf_start(f.away);
     Signed at = lower_;
     at[f.away] = f.is_forward ? across + size : across;

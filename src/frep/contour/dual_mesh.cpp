@@ -1,11 +1,14 @@
-// Implementation of dual_mesh.h: vertices of leaves, then what becomes of each edge, then the triangles. Each
-// pass works on the blocks independently and writes to their own slots.
+// Implementation of dual_mesh.h: vertices of leaves, then what becomes of each edge with the triangles of
+// those that are taken out, then the triangles around the others. Each pass works on the blocks independently
+// and writes to their own slots, most of them in the mesh itself.
 #include "frep/contour/dual_mesh.h"
 
 #include <algorithm>
 #include <atomic>
 
+#include "frep/base/large_pages.h"
 #include "frep/base/parallel.h"
+#include "frep/contour/block_index.h"
 #include "frep/contour/dual_edge.h"
 
 namespace frep::contouring {
@@ -21,24 +24,23 @@ using State = EdgeStar::State;
 
 class Joiner {
   public:
-    Joiner(const Grid& grid, const DualOptions& options, std::vector<std::unique_ptr<DualBlock>> blocks,
-           const Job& job)
+    Joiner(const Grid& grid, const DualOptions& options, std::vector<StoredBlock> blocks, const Job& job)
         : grid_(grid), options_(options), job_(job), blocks_(std::move(blocks)), index_(blocks_) {}
 
     Result<DualMesh> run() {
+        if (!number_sheets()) return too_many();
         for_blocks([this](std::uint32_t begin, std::uint32_t end) { make_vertices(begin, end); });
         if (job_.cancelled()) return cancelled();
         if (contradiction_) return contradiction();
+        if (options_.tolerance > 0) close_gaps();
         for_blocks([this](std::uint32_t begin, std::uint32_t end) { grant_wishes(begin, end); });
         if (job_.cancelled()) return cancelled();
-        if (!number_leaves()) return too_many();
-        parts_.resize(tasks());
-        for_blocks([this](std::uint32_t begin, std::uint32_t end) { decide_edges(begin, end); });
+        make_polygons();
         if (job_.cancelled()) return cancelled();
         if (contradiction_) return contradiction();
         if (!number_edges()) return too_many();
-        copy_vertices();
-        make_triangles();
+        place_vertices();
+        make_fans();
         if (job_.cancelled()) return cancelled();
         blocks_.clear();
         fill_missing_normals();
@@ -91,15 +93,63 @@ class Joiner {
         }
     }
 
-    bool number_leaves() {
-        std::uint64_t total = 0;
+    /// Room in the mesh for a vertex a sheet, and its place in the block.
+    bool number_sheets() {
+        std::uint64_t total = 0, crossings = 0;
+        std::vector<std::uint32_t> counts;
         for (const auto& block : blocks_) {
             first_leaf_.push_back(static_cast<std::uint32_t>(total));
-            total += block->vertices.size();
+            first_crossing_.push_back(crossings);
+            counts.push_back(DualVertices::number_sheets(*block));
+            total += counts.back();
+            crossings += block->roots.size();
             if (total >= vertex_limit) return false;
         }
+        first_crossing_.push_back(crossings);
         leaves_ = static_cast<std::uint32_t>(total);
+        make_room(total, crossings);
+        Mesh& mesh = result_.mesh;
+        for (std::size_t i = 0; i < blocks_.size(); ++i) {
+            blocks_[i]->vertices = {mesh.vertices.data() + first_leaf_[i], counts[i]};
+            blocks_[i]->vertex_normals = {mesh.normals.data() + first_leaf_[i], counts[i]};
+        }
         return true;
+    }
+
+    /// The arrays of the mesh. Their memory is asked for before any of it is written, so that it lies side by
+    /// side and fills large pages.
+    void make_room(std::size_t leaves, std::size_t crossings) {
+        Mesh& mesh = result_.mesh;
+        const std::size_t vertices = leaves + leaves / 8;  // most crossings are taken out
+        const std::size_t triangles = 2 * crossings + crossings / 8;
+        mesh.vertices.reserve(vertices);
+        mesh.normals.reserve(vertices);
+        mesh.triangles.reserve(triangles);
+        expect_to_fill(mesh.vertices.data(), vertices * sizeof(Vec3));
+        expect_to_fill(mesh.normals.data(), vertices * sizeof(Vec3));
+        expect_to_fill(mesh.triangles.data(), triangles * sizeof(Triangle));
+        mesh.vertices.resize(leaves);
+        mesh.normals.resize(leaves);
+        mesh.triangles.resize(2 * crossings);
+    }
+
+    /// Moves the vertices up where leaves merged.
+    void close_gaps() {
+        std::uint32_t to = 0;
+        Mesh& mesh = result_.mesh;
+        for (std::size_t i = 0; i < blocks_.size(); ++i) {
+            DualBlock& block = *blocks_[i];
+            const std::size_t count = block.vertices.size();
+            std::copy_n(block.vertices.data(), count, mesh.vertices.data() + to);
+            std::copy_n(block.vertex_normals.data(), count, mesh.normals.data() + to);
+            block.vertices = {mesh.vertices.data() + to, count};
+            block.vertex_normals = {mesh.normals.data() + to, count};
+            first_leaf_[i] = to;
+            to += static_cast<std::uint32_t>(count);
+        }
+        leaves_ = to;
+        mesh.vertices.resize(to);
+        mesh.normals.resize(to);
     }
 
     Surroundings surroundings(std::uint32_t i) const {
@@ -110,8 +160,7 @@ class Joiner {
             s.blocks[n] = blocks_[s.ranks[n]].get();
             s.first_vertex[n] = first_leaf_[s.ranks[n]];
         }
-        s.lo = morton_decode(blocks_[i]->code);
-        for (std::uint32_t& lo : s.lo) lo *= block_side;
+        s.lo = first_sample(*blocks_[i]);
         s.cells = grid_.cells;
         s.cap = options_.cap;
         s.is_inner = true;
@@ -122,43 +171,85 @@ class Joiner {
         return s;
     }
 
-    /// Lets `star` look at every edge of a set and calls visit(number, rank in the set).
-    template <class Visit>
-    void for_edges(const RankedSet<24>& edges, EdgeStar& star, Visit visit) {
+    /// What becomes of each edge, and the triangles of those that are taken out. Each task has room for all
+    /// that its edges can make; then the parts move together.
+    void make_polygons() {
+        std::vector<Triangle>& triangles = result_.mesh.triangles;
+        fans_.resize(tasks());
+        std::vector<std::size_t> counts(tasks());
+        for_blocks([&](std::uint32_t begin, std::uint32_t end) {
+            DualRegion region;
+            Triangle* const first = triangles.data() + 2 * first_crossing_[begin];
+            Triangle* out = first;
+            for (std::uint32_t i = begin; i < end; ++i) decide_edges(i, region, out);
+            counts[begin / blocks_a_task] = static_cast<std::size_t>(out - first);
+        });
+        std::size_t to = 0;
+        for (std::size_t t = 0; t < tasks(); ++t) {
+            const std::size_t from = 2 * first_crossing_[t * blocks_a_task];
+            if (to != from) std::copy_n(triangles.data() + from, counts[t], triangles.data() + to);
+            to += counts[t];
+        }
+        triangles.resize(to);
+    }
+
+    void decide_edges(std::uint32_t i, DualRegion& region, Triangle*& out) {
+        DualBlock& block = *blocks_[i];
+        if (block.roots.empty()) return;
+        const Surroundings around = surroundings(i);
+        region.fill(around);
+        EdgeStar star(around, region);
         std::uint32_t rank = 0;
-        for (std::uint32_t w = 0; w < edges.bits.size(); ++w) {
-            for (std::uint64_t left = edges.bits[w]; left != 0; left &= left - 1) {
+        for (std::uint32_t w = 0; w < block.edges.bits.size(); ++w) {
+            for (std::uint64_t left = block.edges.bits[w]; left != 0; left &= left - 1, ++rank) {
                 const std::uint32_t number = w * 64 + static_cast<std::uint32_t>(std::countr_zero(left));
-                if (!star.look(number)) {
+                if (!star.look(number, block.roots[rank])) {
                     contradiction_ = true;
                     return;
                 }
-                visit(number, rank++);
-            }
-        }
-    }
-
-    void decide_edges(std::uint32_t begin, std::uint32_t end) {
-        std::vector<Triangle>& out = parts_[begin / blocks_a_task].polygons;
-        std::size_t crossings = 0;
-        for (std::uint32_t i = begin; i < end; ++i) crossings += blocks_[i]->roots.size();
-        out.reserve(2 * crossings);
-        for (std::uint32_t i = begin; i < end; ++i) {
-            DualBlock& block = *blocks_[i];
-            const Surroundings around = surroundings(i);
-            EdgeStar star(around);
-            block.edge_states.assign(block.roots.size(), 0);
-            for_edges(block.edges, star, [&](std::uint32_t number, std::uint32_t rank) {
                 const std::uint8_t state = star.state();
-                block.edge_states[rank] = state;
                 if (state & State::kept) {
                     block.kept_edges.insert(number);
+                    fans_[i / blocks_a_task].push_back(fan_of(star, state, around, i, number));
                 } else if (!(state & State::dead)) {
                     add_polygon(star, state, out);
                 }
-            });
-            block.kept_edges.count();
+            }
         }
+        block.kept_edges.count();
+    }
+
+    /// The triangles around a crossing that is a vertex, before all vertices have numbers.
+    struct Fan {
+        /// An end of an arc.
+        struct End {
+            std::uint32_t block = 0, number = 0;
+        };
+        End here;
+        bool lower_is_inside = false;
+        std::uint8_t turned = 0, open = 0;  ///< bits: arcs that are turned, that are not
+        std::array<std::uint32_t, 4> vertices{};
+        std::array<End, 4> ends{};  ///< the other ends of open arcs
+    };
+
+    static Fan fan_of(const EdgeStar& star, std::uint8_t state, const Surroundings& around, std::uint32_t i,
+                      std::uint32_t number) {
+        Fan fan;
+        fan.here = {i, number};
+        fan.lower_is_inside = star.lower_is_inside();
+        for (std::size_t q = 0; q < 4; ++q) fan.vertices[q] = star.vertex(q);
+        for (std::size_t q = 0; q < 4; ++q) {
+            const std::uint32_t next = fan.vertices[(q + 1) % 4];
+            if (star.is_one_leaf(q) || (fan.vertices[q] & next) == EdgeStar::no_vertex) continue;
+            if (state >> q & 1) {
+                fan.turned = static_cast<std::uint8_t>(fan.turned | 1u << q);
+            } else {
+                const EdgeName end = star.partner(q);
+                fan.open = static_cast<std::uint8_t>(fan.open | 1u << q);
+                fan.ends[q] = {around.ranks[end.block], end.number};
+            }
+        }
+        return fan;
     }
 
     bool number_edges() {
@@ -170,6 +261,13 @@ class Joiner {
         }
         edges_ = static_cast<std::size_t>(total);
         return true;
+    }
+
+    /// The first sample of a block, with layer.
+    static Lattice first_sample(const DualBlock& block) {
+        Lattice lo = morton_decode(block.code);
+        for (std::uint32_t& l : lo) l *= block_side;
+        return lo;
     }
 
     /// The coordinate of sample e, with layer; e may have a part of a cell.
@@ -190,24 +288,23 @@ class Joiner {
         return {p[0], p[1], p[2]};
     }
 
-    void copy_vertices() {
+    /// The positions of all vertices in the model, and the attributes.
+    void place_vertices() {
         const std::size_t wanted = options_.attributes, count = edges_ + leaves_;
-        Mesh& mesh = result_.mesh;
-        mesh.vertices.resize(count);
-        mesh.normals.resize(count);
+        result_.mesh.vertices.resize(count);
+        result_.mesh.normals.resize(count);
         result_.attributes.assign(wanted, std::vector<double>(count));
         for_blocks([&](std::uint32_t begin, std::uint32_t end) {
             for (std::uint32_t i = begin; i < end; ++i) {
-                copy_edges(i);
-                copy_leaves(i);
+                place_edges(i);
+                place_leaves(i);
             }
         });
     }
 
-    void copy_edges(std::uint32_t i) {
+    void place_edges(std::uint32_t i) {
         const DualBlock& block = *blocks_[i];
-        Lattice lo = morton_decode(block.code);
-        for (std::uint32_t& l : lo) l *= block_side;
+        const Lattice lo = first_sample(block);
         std::size_t to = leaves_ + first_edge_[i];
         for (std::uint32_t w = 0; w < block.kept_edges.bits.size(); ++w) {
             for (std::uint64_t left = block.kept_edges.bits[w]; left != 0; left &= left - 1, ++to) {
@@ -221,101 +318,85 @@ class Joiner {
         }
     }
 
-    void copy_leaves(std::uint32_t i) {
+    void place_leaves(std::uint32_t i) {
         const DualBlock& block = *blocks_[i];
-        Lattice lo = morton_decode(block.code);
-        for (std::uint32_t& l : lo) l *= block_side;
-        std::size_t to = first_leaf_[i];
-        for (std::size_t v = 0; v < block.vertices.size(); ++v, ++to) {
-            const Vec3& p = block.vertices[v].position;
-            result_.mesh.vertices[to] = {coordinate(0, lo[0] + p.x), coordinate(1, lo[1] + p.y),
-                                         coordinate(2, lo[2] + p.z)};
-            result_.mesh.normals[to] = block.vertices[v].normal;
+        const Lattice lo = first_sample(block);
+        const std::size_t first = first_leaf_[i], count = block.vertices.size();
+        std::uint32_t next = 0;  // cells of one leaf come back to a vertex that was before
+        for (const DualCell& cell : block.cells) {
+            if (cell.vertex < next) continue;
+            const Lattice local = local_of(cell.number);
+            std::array<double, 3> corner{};
+            for (std::size_t a = 0; a < 3; ++a)
+                corner[a] = static_cast<double>(lo[a] + (local[a] >> cell.level << cell.level));
+            const std::uint32_t sheets = cell.level > 0 ? 1u : cell_pattern(cell.signs).sheets;
+            next = cell.vertex + sheets;
+            for (std::size_t v = first + cell.vertex; v < first + next; ++v) {
+                Vec3& p = result_.mesh.vertices[v];
+                p = {coordinate(0, corner[0] + p.x), coordinate(1, corner[1] + p.y),
+                     coordinate(2, corner[2] + p.z)};
+            }
+        }
+        for (std::size_t v = 0; v < count; ++v) {
             for (std::size_t k = 0; k < options_.attributes; ++k)
-                result_.attributes[k][to] = block.vertex_attributes[v * options_.attributes + k];
+                result_.attributes[k][first + v] = block.vertex_attributes[v * options_.attributes + k];
         }
     }
 
-    /// The fans, and with the polygons all triangles: those of 32 blocks, polygons first, then the next.
-    void make_triangles() {
-        for_blocks([&](std::uint32_t begin, std::uint32_t end) {
-            std::vector<Triangle>& out = parts_[begin / blocks_a_task].fans;
-            for (std::uint32_t i = begin; i < end; ++i) add_fans(i, out);
+    void make_fans() {
+        std::vector<std::vector<Triangle>> parts(tasks());
+        for_blocks([&](std::uint32_t begin, std::uint32_t) {
+            const std::size_t t = begin / blocks_a_task;
+            for (const Fan& fan : fans_[t]) add_fan(fan, parts[t]);
         });
-        std::size_t total = 0;
-        for (const Part& part : parts_) total += part.polygons.size() + part.fans.size();
-        std::vector<Triangle>& triangles = result_.mesh.triangles;
-        triangles.reserve(total);
-        for (Part& part : parts_) {
-            triangles.insert(triangles.end(), part.polygons.begin(), part.polygons.end());
-            triangles.insert(triangles.end(), part.fans.begin(), part.fans.end());
-            part = {};
-        }
+        std::size_t total = result_.mesh.triangles.size();
+        for (const std::vector<Triangle>& part : parts) total += part.size();
+        result_.mesh.triangles.reserve(total);
+        for (const std::vector<Triangle>& part : parts)
+            result_.mesh.triangles.insert(result_.mesh.triangles.end(), part.begin(), part.end());
     }
 
-    void add_fans(std::uint32_t i, std::vector<Triangle>& out) {
-        const DualBlock& block = *blocks_[i];
-        const bool has_fans = std::any_of(block.kept_edges.bits.begin(), block.kept_edges.bits.end(),
-                                          [](std::uint64_t word) { return word != 0; });
-        if (!has_fans) return;
-        const Surroundings around = surroundings(i);
-        EdgeStar star(around);
-        for_edges(block.kept_edges, star, [&](std::uint32_t number, std::uint32_t) {
-            add_fan(i, around, star, number, block.edge_states[block.edges.rank(number)], out);
-        });
-    }
-
-    std::uint32_t edge_vertex(std::uint32_t block, std::uint32_t number) const {
-        return leaves_ + first_edge_[block] + blocks_[block]->kept_edges.rank(number);
+    std::uint32_t edge_vertex(const Fan::End& end) const {
+        return leaves_ + first_edge_[end.block] + blocks_[end.block]->kept_edges.rank(end.number);
     }
 
     /// a b c, counter-clockwise seen from the upper end of the edge, turned over if that is the inside.
-    static void add(const EdgeStar& star, std::uint32_t a, std::uint32_t b, std::uint32_t c,
-                    std::vector<Triangle>& out) {
-        if (star.lower_is_inside()) {
-            out.push_back({a, b, c});
-        } else {
-            out.push_back({a, c, b});
-        }
+    static Triangle oriented(bool lower_is_inside, std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+        return lower_is_inside ? Triangle{a, b, c} : Triangle{a, c, b};
     }
 
-    /// The triangles around a crossing that is a vertex. Those of an arc that is not turned are made at that
-    /// end of it that comes first.
-    void add_fan(std::uint32_t i, const Surroundings& around, const EdgeStar& star, std::uint32_t number,
-                 std::uint8_t state, std::vector<Triangle>& out) const {
-        const std::uint32_t here = edge_vertex(i, number);
+    /// The triangles of an arc that is not turned are made at that end of it that comes first.
+    void add_fan(const Fan& fan, std::vector<Triangle>& out) const {
+        const std::uint32_t here = edge_vertex(fan.here);
+        const bool lower = fan.lower_is_inside;
         for (std::size_t q = 0; q < 4; ++q) {
-            const std::size_t next = (q + 1) % 4;
-            const bool has_q = star.vertex(q) != EdgeStar::no_vertex;
-            const bool has_next = star.vertex(next) != EdgeStar::no_vertex;
-            if (star.is_one_leaf(q) || !(has_q || has_next)) continue;
-            if (state >> q & 1) {
-                add(star, here, star.vertex(q), star.vertex(next), out);
+            const std::uint32_t a = fan.vertices[q], b = fan.vertices[(q + 1) % 4];
+            if (fan.turned >> q & 1) out.push_back(oriented(lower, here, a, b));
+            if (!(fan.open >> q & 1)) continue;
+            const Fan::End& end = fan.ends[q];
+            if (end.block < fan.here.block || (end.block == fan.here.block && end.number < fan.here.number))
                 continue;
-            }
-            const EdgeName end = star.partner(q);
-            const std::uint32_t block = around.ranks[end.block];
-            if (block < i || (block == i && end.number < number)) continue;
-            const std::uint32_t there = edge_vertex(block, end.number);
-            if (has_q) add(star, here, star.vertex(q), there, out);
-            if (has_next) add(star, here, there, star.vertex(next), out);
+            const std::uint32_t there = edge_vertex(end);
+            if (a != EdgeStar::no_vertex) out.push_back(oriented(lower, here, a, there));
+            if (b != EdgeStar::no_vertex) out.push_back(oriented(lower, here, there, b));
         }
     }
 
-    static void add_polygon(const EdgeStar& star, std::uint8_t state, std::vector<Triangle>& out) {
+    static void add_polygon(const EdgeStar& star, std::uint8_t state, Triangle*& out) {
         std::array<std::uint32_t, 4> c{};
         std::size_t count = 0;
         for (std::size_t q = 0; q < 4; ++q) {
             if (!star.is_one_leaf(q)) c[count++] = star.vertex(q);
         }
+        const bool lower = star.lower_is_inside();
         if (count == 3) {
-            add(star, c[0], c[1], c[2], out);
+            *out++ = oriented(lower, c[0], c[1], c[2]);
         } else if (state & State::second_diagonal) {
-            add(star, c[0], c[1], c[3], out);
-            add(star, c[1], c[2], c[3], out);
+            *out++ = oriented(lower, c[0], c[1], c[3]);
+            *out++ = oriented(lower, c[1], c[2], c[3]);
         } else {
-            add(star, c[0], c[1], c[2], out);
-            add(star, c[0], c[2], c[3], out);
+            *out++ = oriented(lower, c[0], c[1], c[2]);
+            *out++ = oriented(lower, c[0], c[2], c[3]);
         }
     }
 
@@ -331,66 +412,24 @@ class Joiner {
         }
     }
 
-    /// The triangles of the blocks of a task.
-    struct Part {
-        std::vector<Triangle> polygons, fans;
-    };
-
     const Grid& grid_;
     DualOptions options_;
     const Job& job_;
-    std::vector<std::unique_ptr<DualBlock>> blocks_;
-    std::vector<Part> parts_;
+    std::vector<StoredBlock> blocks_;
+    std::vector<std::vector<Fan>> fans_;  ///< by task
     BlockIndex index_;
-    std::vector<std::uint32_t> first_leaf_, first_edge_;
+    std::vector<std::uint32_t> first_leaf_, first_edge_;  ///< vertices, by block
+    std::vector<std::size_t> first_crossing_;             ///< and an end
     std::uint32_t leaves_ = 0;
     std::size_t edges_ = 0;  ///< vertices on edges
     DualMesh result_;
     std::atomic<bool> contradiction_{false};
 };
 
-std::uint64_t mixed(std::uint64_t code) {
-    code *= 0x9e3779b97f4a7c15u;
-    return code ^ code >> 32;
-}
-
 }  // namespace
 
-BlockIndex::BlockIndex(const std::vector<std::unique_ptr<DualBlock>>& blocks) {
-    table_.assign(std::bit_ceil(2 * blocks.size() + 1), none);
-    codes_.reserve(blocks.size());
-    for (std::uint32_t i = 0; i < blocks.size(); ++i) {
-        codes_.push_back(blocks[i]->code);
-        std::size_t at = mixed(codes_[i]) & (table_.size() - 1);
-        while (table_[at] != none) at = (at + 1) & (table_.size() - 1);
-        table_[at] = i;
-    }
-}
-
-std::uint32_t BlockIndex::find(std::uint64_t code) const {
-    std::size_t at = mixed(code) & (table_.size() - 1);
-    while (table_[at] != none && codes_[table_[at]] != code) at = (at + 1) & (table_.size() - 1);
-    return table_[at];
-}
-
-std::array<std::uint32_t, 27> BlockIndex::around(std::uint32_t i) const {
-    const Lattice here = morton_decode(codes_[i]);
-    std::array<std::uint32_t, 27> found{};
-    for (std::uint32_t n = 0; n < 27; ++n) {
-        const Lattice step{n % 3, n / 3 % 3, n / 9};
-        Lattice at{};
-        bool is_in = true;
-        for (std::size_t a = 0; a < 3; ++a) {
-            is_in = is_in && here[a] + step[a] >= 1;
-            at[a] = here[a] + step[a] - 1;
-        }
-        found[n] = is_in ? find(morton_code(at)) : none;
-    }
-    return found;
-}
-
-Result<DualMesh> join_blocks(const Grid& grid, const DualOptions& options,
-                             std::vector<std::unique_ptr<DualBlock>> blocks, const Job& job) {
+Result<DualMesh> join_blocks(const Grid& grid, const DualOptions& options, std::vector<StoredBlock> blocks,
+                             const Job& job) {
     return Joiner(grid, options, std::move(blocks), job).run();
 }
 

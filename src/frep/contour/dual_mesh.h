@@ -27,23 +27,6 @@
 
 namespace frep::contouring {
 
-/// Blocks by their codes.
-class BlockIndex {
-  public:
-    /// `blocks` must stay alive and keep their order, that of their codes.
-    explicit BlockIndex(const std::vector<std::unique_ptr<DualBlock>>& blocks);
-
-    static constexpr std::uint32_t none = 0xffffffffu;
-    /// The position of the block with this code; none.
-    std::uint32_t find(std::uint64_t code) const;
-    /// The blocks around block i, and itself: entry (dx + 1) + 3 (dy + 1) + 9 (dz + 1).
-    std::array<std::uint32_t, 27> around(std::uint32_t i) const;
-
-  private:
-    std::vector<std::uint64_t> codes_;
-    std::vector<std::uint32_t> table_;  ///< open addressing
-};
-
 struct DualMesh {
     Mesh mesh;
     std::vector<std::vector<double>> attributes;  ///< one column an attribute, a number a vertex
@@ -53,7 +36,7 @@ struct DualMesh {
 /// codes and are used up. The vertices of leaves come first, then those on edges, both in the order of the
 /// blocks. Errors: over_limit for more than 2^32 - 2 vertices, cancelled, invalid_argument when the intervals
 /// and the values of the field contradict each other.
-Result<DualMesh> join_blocks(const Grid& grid, const DualOptions& options,
-                             std::vector<std::unique_ptr<DualBlock>> blocks, const Job& job);
+Result<DualMesh> join_blocks(const Grid& grid, const DualOptions& options, std::vector<StoredBlock> blocks,
+                             const Job& job);
 
 }  // namespace frep::contouring

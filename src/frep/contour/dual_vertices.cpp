@@ -2,6 +2,7 @@
 #include "frep/contour/dual_vertices.h"
 
 #include <algorithm>
+#include <bit>
 #include <limits>
 #include <utility>
 
@@ -18,29 +19,7 @@ Vec3 position_of(const Lattice& l) {
     return {static_cast<double>(l[0]), static_cast<double>(l[1]), static_cast<double>(l[2])};
 }
 
-Box3 box_of(const Lattice& lower, std::uint32_t side, double margin) {
-    const Vec3 low = position_of(lower);
-    const double s = static_cast<double>(side) - margin;
-    return {low + Vec3{margin, margin, margin}, low + Vec3{s, s, s}};
-}
-
-Vec3 unit(const Vec3& v) {
-    const double l = length(v);
-    return l > 0 ? v / l : Vec3{0, 0, 0};
-}
-
 double component(const Vec3& v, std::size_t axis) { return axis == 0 ? v.x : axis == 1 ? v.y : v.z; }
-
-/// The axis of each edge of a cell.
-constexpr std::array<std::uint8_t, 12> edge_axes = [] {
-    std::array<std::uint8_t, 12> axes{};
-    for (std::size_t e = 0; e < 12; ++e) {
-        const auto& low = corner_offsets[edge_corners[e][0]];
-        const auto& high = corner_offsets[edge_corners[e][1]];
-        axes[e] = low[0] != high[0] ? 0 : low[1] != high[1] ? 1 : 2;
-    }
-    return axes;
-}();
 
 /// A corner of the unit cell.
 Vec3 corner_place(std::uint8_t corner) {
@@ -86,38 +65,69 @@ std::uint8_t way_out(unsigned signs, const Vec3& at, const Vec3& along) {
     return no_wish;
 }
 
-/// The point on the way from `anchor` to `goal` that stays on the sheet's side of its planes; `lower` is the
-/// cell's first corner. The anchor lies strictly on that side.
-Vec3 on_sheet_side(const CellPattern& pattern, std::size_t sheet, const Vec3& lower, const Vec3& anchor,
-                   const Vec3& goal) {
+/// The point of the unit cell on the way from `anchor` to `goal` that stays on the sheet's side of its
+/// planes. The anchor lies strictly on that side.
+Vec3 on_sheet_side(const CellPattern& pattern, std::size_t sheet, const Vec3& anchor, const Vec3& goal) {
     double way = 1;
     for (std::size_t k = 0; k + 1 < pattern.sheets; ++k) {
         const SheetPlane& plane = pattern.planes[sheet][k];
         const Vec3 n{static_cast<double>(plane.normal[0]), static_cast<double>(plane.normal[1]),
                      static_cast<double>(plane.normal[2])};
-        const double room = 0.5 * plane.twice_offset - dot(n, anchor - lower);
+        const double room = 0.5 * plane.twice_offset - dot(n, anchor);
         const double used = dot(n, goal - anchor);
         if (used > 0.5 * room) way = std::min(way, 0.5 * room / used);
     }
     return anchor + (goal - anchor) * way;
 }
 
+/// [n]: the edges of block n of NextBlocks that lie on cells of the first block: those with the coordinate 0
+/// along each step of n, and not along it.
+constexpr std::array<std::array<std::uint64_t, 24>, 7> edges_at_block = [] {
+    std::array<std::array<std::uint64_t, 24>, 7> sets{};
+    for (std::uint32_t n = 0; n < 7; ++n) {
+        for (std::uint32_t number = 0; number < 3 * 512; ++number) {
+            const Lattice at = local_of(number / 3);
+            bool is_near = true;
+            for (std::uint32_t a = 0; a < 3; ++a)
+                is_near = is_near && (!(n >> a & 1) || (at[a] == 0 && number % 3 != a));
+            if (is_near) sets[n][number / 64] |= std::uint64_t{1} << number % 64;
+        }
+    }
+    return sets;
+}();
+
 }  // namespace
 
+std::uint32_t DualVertices::number_sheets(DualBlock& block) {
+    const std::array<CellPattern, 256>& patterns = cell_patterns();
+    std::uint32_t count = 0;
+    for (DualCell& cell : block.cells) {
+        cell.vertex = count;
+        count += patterns[cell.signs].sheets;
+    }
+    return count;
+}
+
 bool DualVertices::make(DualBlock& block, const NextBlocks& next) {
-    if (!collect(block, next)) return false;
+    if (!sum_errors(block, next)) return false;
+    if (keeps_crossings()) {
+        crossings_.clear();
+        first_of_.clear();
+        for (const DualCell& cell : block.cells) {
+            first_of_.push_back(static_cast<std::uint32_t>(crossings_.size()));
+            collect(block, next, cell);
+        }
+        first_of_.push_back(static_cast<std::uint32_t>(crossings_.size()));
+    }
     if (options_.tolerance > 0) {
         for (std::size_t level = 0; level < 4; ++level) {
             const std::size_t side = block_side >> level;
             leaves_[level].assign(side * side * side, {});
         }
     }
-    block.vertices.clear();
-    block.vertices.reserve(block.cells.size());
     for (std::size_t i = 0; i < block.cells.size(); ++i) {
-        block.cells[i].vertex = static_cast<std::uint32_t>(block.vertices.size());
         const std::size_t sheets = patterns_[block.cells[i].signs].sheets;
-        for (std::size_t sheet = 0; sheet < sheets; ++sheet) make_sheet(block, i, sheet);
+        for (std::size_t sheet = 0; sheet < sheets; ++sheet) make_sheet(block, next, i, sheet);
     }
     if (options_.tolerance > 0) {
         merge(block);
@@ -126,99 +136,141 @@ bool DualVertices::make(DualBlock& block, const NextBlocks& next) {
     return true;
 }
 
-/// Finds the crossings of all cells.
-bool DualVertices::collect(const DualBlock& block, const NextBlocks& next) {
-    crossings_.resize(12 * block.cells.size());
-    edge_of_.resize(12 * block.cells.size());
-    first_of_.resize(block.cells.size() + 1);
-    std::uint32_t count = 0;
-    for (std::size_t i = 0; i < block.cells.size(); ++i) {
-        first_of_[i] = count;
-        const Lattice corner = local_of(block.cells[i].number);
-        const CellPattern& pattern = patterns_[block.cells[i].signs];
-        for (std::uint8_t e = 0; e < 12; ++e) {
-            if (pattern.sheet_of[e] == no_sheet) continue;
-            const auto& low = corner_offsets[edge_corners[e][0]];
-            const std::size_t axis = edge_axes[e];
-            const Lattice at{corner[0] + low[0], corner[1] + low[1], corner[2] + low[2]};
-            const std::size_t which = at[0] / block_side | at[1] / block_side << 1 | at[2] / block_side << 2;
-            const DualBlock* owner = next[which];
-            const std::uint32_t number =
-                edge_number({at[0] % block_side, at[1] % block_side, at[2] % block_side}, axis);
-            if (!owner || !owner->edges.has(number)) return false;
-            const std::uint32_t rank = owner->edges.rank(number);
-            Crossing& crossing = crossings_[count];
-            crossing.point = position_of(at);
-            (axis == 0   ? crossing.point.x
-             : axis == 1 ? crossing.point.y
-                         : crossing.point.z) += owner->roots[rank];
-            crossing.normal = owner->normals[rank];
-            if (options_.attributes > 0) crossing.attributes = &owner->attributes[rank * options_.attributes];
-            edge_of_[count++] = e;
+/// The error of each sheet. False when a crossing is missing.
+bool DualVertices::sum_errors(const DualBlock& block, const NextBlocks& next) {
+    errors_.assign(block.vertices.size(), {});
+    seen_.assign(block.cells.size(), 0);
+    for (std::size_t i = 0; i < block.cells.size(); ++i)
+        rank_of_[block.cells[i].number] = static_cast<std::uint16_t>(i);
+    for (std::uint32_t n = 0; n < 7; ++n) {
+        const DualBlock* owner = next[n];
+        if (!owner) continue;
+        const Lattice shift{(n & 1) * block_side, (n >> 1 & 1) * block_side, (n >> 2) * block_side};
+        for (std::uint32_t w = 0; w < owner->edges.bits.size(); ++w) {
+            const std::uint64_t all = owner->edges.bits[w];
+            for (std::uint64_t left = all & edges_at_block[n][w]; left != 0; left &= left - 1) {
+                const std::uint32_t number = w * 64 + static_cast<std::uint32_t>(std::countr_zero(left));
+                const std::uint64_t smaller = all & ((left & -left) - 1);
+                const std::uint32_t rank = owner->edges.before[w] + bit_count(smaller);
+                Lattice lower = local_of(number / 3);
+                for (std::size_t a = 0; a < 3; ++a) lower[a] += shift[a];
+                add_crossing(block, lower, number % 3, owner->roots[rank], owner->normals[rank]);
+            }
         }
     }
-    first_of_[block.cells.size()] = count;
+    for (std::size_t i = 0; i < block.cells.size(); ++i) {
+        if (seen_[i] != patterns_[block.cells[i].signs].edges) return false;
+    }
     return true;
 }
 
-void DualVertices::make_sheet(DualBlock& block, std::size_t rank, std::size_t sheet) {
-    DualCell& cell = block.cells[rank];
-    const CellPattern& pattern = patterns_[cell.signs];
+/// Adds a crossing to the sheets of the block's cells around its edge.
+void DualVertices::add_crossing(const DualBlock& block, const Lattice& lower, std::size_t axis, double root,
+                                const Vec3& normal) {
+    Vec3 point = position_of(lower);
+    (axis == 0 ? point.x : axis == 1 ? point.y : point.z) += root;
+    const QuadraticError error = QuadraticError::of(point, normal);
+    const std::size_t u = axis == 2 ? 0 : axis + 1, v = axis == 0 ? 2 : axis - 1;
+    constexpr std::array<std::uint32_t, 3> steps{1, block_side, block_side * block_side};
+    const std::uint32_t at = local_number(lower);  // beyond the block where a coordinate is 8
+    const auto add = [&](std::uint32_t number, std::uint8_t edge) {
+        if (!block.cell_set.has(number)) return;
+        const std::uint32_t rank = rank_of_[number];
+        const DualCell& cell = block.cells[rank];
+        const std::uint8_t sheet = patterns_[cell.signs].sheet_of[edge];
+        seen_[rank] = static_cast<std::uint16_t>(seen_[rank] | 1u << edge);
+        if (sheet != no_sheet) errors_[cell.vertex + sheet].add(error);
+    };
+    const bool has_u = lower[u] > 0, has_v = lower[v] > 0;
+    const bool is_in_u = lower[u] < block_side, is_in_v = lower[v] < block_side;
+    const auto& edges = cell_edges_at[axis];
+    if (is_in_u && is_in_v) add(at, edges[0]);
+    if (has_u && is_in_v) add(at - steps[u], edges[1u << u]);
+    if (is_in_u && has_v) add(at - steps[v], edges[1u << v]);
+    if (has_u && has_v) add(at - steps[u] - steps[v], edges[1u << u | 1u << v]);
+}
+
+/// Appends the crossings of a cell, all of which are there.
+void DualVertices::collect(const DualBlock& block, const NextBlocks& next, const DualCell& cell) {
     const Lattice corner = local_of(cell.number);
-    std::array<std::uint32_t, 12> all{};
-    std::size_t count = 0;
-    QuadraticError error;
-    for (std::uint32_t k = first_of_[rank]; k < first_of_[rank + 1]; ++k) {
-        if (pattern.sheet_of[edge_of_[k]] != sheet) continue;
-        error.add(crossings_[k].point, crossings_[k].normal);
-        all[count++] = k;
-    }
-    const std::span<const std::uint32_t> members{all.data(), count};
-    DualVertex vertex;
-    vertex.normal = unit(error.normal_sum());
-    if (vertex.normal == Vec3{0, 0, 0}) vertex.normal = fitted(cell, members);
-    QuadraticError::Free free;
-    vertex.position = error.minimum(box_of(corner, 1, options_.margin), &free);
-    if (pattern.sheets > 1) {
-        vertex.position =
-            on_sheet_side(pattern, sheet, position_of(corner), anchor(cell, members), vertex.position);
-    } else {
-        note_wish(block, rank, free);
-    }
-    block.vertices.push_back(vertex);
-    append_attributes(block, members);
-    if (options_.tolerance > 0) {
-        Leaf& leaf = leaves_[0][cell.number];
-        leaf = {error, vertex.position, pattern.is_simple(), false};
+    for (std::uint8_t e = 0; e < 12; ++e) {
+        if (patterns_[cell.signs].sheet_of[e] == no_sheet) continue;
+        const auto& low = corner_offsets[edge_corners[e][0]];
+        const std::size_t axis = edge_axes[e];
+        const Lattice at{corner[0] + low[0], corner[1] + low[1], corner[2] + low[2]};
+        const std::size_t which = at[0] / block_side | at[1] / block_side << 1 | at[2] / block_side << 2;
+        const DualBlock& owner = which == 0 ? block : *next[which];
+        const std::uint32_t rank =
+            owner.edges.rank(edge_number({at[0] % block_side, at[1] % block_side, at[2] % block_side}, axis));
+        Crossing crossing{position_of(at), owner.normals[rank], nullptr, e};
+        (axis == 0 ? crossing.point.x : axis == 1 ? crossing.point.y : crossing.point.z) += owner.roots[rank];
+        if (options_.attributes > 0) crossing.attributes = &owner.attributes[rank * options_.attributes];
+        crossings_.push_back(crossing);
     }
 }
 
-/// The mean of the crossings, held off the corners of the cell.
-Vec3 DualVertices::anchor(const DualCell& cell, std::span<const std::uint32_t> members) const {
-    const Vec3 lower = position_of(local_of(cell.number));
+std::span<const DualVertices::Crossing> DualVertices::crossings_of(const DualBlock& block,
+                                                                   const NextBlocks& next, std::size_t rank) {
+    if (keeps_crossings())
+        return {crossings_.data() + first_of_[rank], crossings_.data() + first_of_[rank + 1]};
+    crossings_.clear();
+    collect(block, next, block.cells[rank]);
+    return crossings_;
+}
+
+void DualVertices::make_sheet(DualBlock& block, const NextBlocks& next, std::size_t rank, std::size_t sheet) {
+    DualCell& cell = block.cells[rank];
+    const CellPattern& pattern = patterns_[cell.signs];
+    const Vec3 corner = position_of(local_of(cell.number));
+    const std::size_t vertex = cell.vertex + sheet;
+    const QuadraticError& error = errors_[vertex];
+    const Vec3 sum = error.normal_sum();
+    const double squares = dot(sum, sum);
+    if (pattern.sheets > 1 || squares == 0 || keeps_crossings()) {
+        members_.clear();
+        for (const Crossing& crossing : crossings_of(block, next, rank)) {
+            if (pattern.sheet_of[crossing.edge] == sheet) members_.push_back(crossing);
+        }
+    }
+    block.vertex_normals[vertex] = squares > 0 ? sum * (1 / __builtin_sqrt(squares)) : fitted(cell, members_);
+    QuadraticError::Free free;
+    const Vec3 held{options_.margin, options_.margin, options_.margin};
+    const Vec3 one{1, 1, 1};
+    Vec3& position = block.vertices[vertex];
+    position = error.minimum({corner + held, corner + (one - held)}, &free) - corner;
+    if (pattern.sheets > 1) {
+        position = on_sheet_side(pattern, sheet, anchor(corner, members_), position);
+    } else {
+        note_wish(block, rank, corner, free);
+    }
+    append_attributes(block, members_);
+    if (options_.tolerance > 0) leaves_[0][cell.number] = {error, position, pattern.is_simple(), false};
+}
+
+/// The mean of the crossings, held off the corners of the cell, from its lower corner.
+Vec3 DualVertices::anchor(const Vec3& corner, std::span<const Crossing> members) const {
     Vec3 sum;
-    for (const std::uint32_t k : members) {
-        const Vec3 a = corner_place(edge_corners[edge_of_[k]][0]),
-                   b = corner_place(edge_corners[edge_of_[k]][1]);
-        const double t = dot(crossings_[k].point - lower - a, b - a);
-        sum = sum + lower + a + (b - a) * std::min(std::max(t, options_.margin), 1 - options_.margin);
+    for (const Crossing& c : members) {
+        const Vec3 a = corner_place(edge_corners[c.edge][0]), b = corner_place(edge_corners[c.edge][1]);
+        const double t = dot(c.point - corner - a, b - a);
+        sum = sum + a + (b - a) * std::min(std::max(t, options_.margin), 1 - options_.margin);
     }
     return sum / static_cast<double>(members.size());
 }
 
 /// The normal of the plane through crossings without known normals, towards the outside ends of their edges.
-Vec3 DualVertices::fitted(const DualCell& cell, std::span<const std::uint32_t> members) const {
+Vec3 DualVertices::fitted(const DualCell& cell, std::span<const Crossing> members) const {
     Vec3 middle, outward;
-    for (const std::uint32_t k : members) {
-        const auto& ends = edge_corners[edge_of_[k]];
+    for (const Crossing& c : members) {
+        const auto& ends = edge_corners[c.edge];
         const Vec3 along = corner_place(ends[1]) - corner_place(ends[0]);
         outward = outward + ((cell.signs >> ends[0]) & 1u ? along : -along);
-        middle = middle + crossings_[k].point;
+        middle = middle + c.point;
     }
     middle = middle / static_cast<double>(members.size());
     std::array<double, 6> m{};
-    for (const std::uint32_t k : members) {
-        const Vec3 d = crossings_[k].point - middle;
+    for (const Crossing& c : members) {
+        const Vec3 d = c.point - middle;
         const std::array<double, 6> squares{d.x * d.x, d.x * d.y, d.x * d.z, d.y * d.y, d.y * d.z, d.z * d.z};
         for (std::size_t i = 0; i < 6; ++i) m[i] += squares[i];
     }
@@ -227,12 +279,12 @@ Vec3 DualVertices::fitted(const DualCell& cell, std::span<const std::uint32_t> m
 }
 
 /// The means of the defined attributes of some crossings; NaN if there is none.
-void DualVertices::append_attributes(DualBlock& block, std::span<const std::uint32_t> members) const {
+void DualVertices::append_attributes(DualBlock& block, std::span<const Crossing> members) const {
     for (std::size_t k = 0; k < options_.attributes; ++k) {
         double sum = 0;
         std::size_t defined = 0;
-        for (const std::uint32_t i : members) {
-            const double value = crossings_[i].attributes[k];
+        for (const Crossing& c : members) {
+            const double value = c.attributes[k];
             if (value != value) continue;
             sum += value;
             ++defined;
@@ -244,9 +296,10 @@ void DualVertices::append_attributes(DualBlock& block, std::span<const std::uint
 
 /// Notes the face through which a sharp edge leaves the cell, if its corners have one sign: the face behind
 /// which the free minimum lies, no farther than a cell, or the one through which the edge's line goes out.
-void DualVertices::note_wish(DualBlock& block, std::size_t rank, const QuadraticError::Free& free) const {
+void DualVertices::note_wish(DualBlock& block, std::size_t rank, const Vec3& corner,
+                             const QuadraticError::Free& free) const {
     DualCell& cell = block.cells[rank];
-    const Vec3 at = free.point - position_of(local_of(cell.number));
+    const Vec3 at = free.point - corner;
     const double low = options_.margin, high = 1 - options_.margin;
     std::uint8_t face = no_wish;
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -263,7 +316,7 @@ void DualVertices::note_wish(DualBlock& block, std::size_t rank, const Quadratic
         return;
     }
     cell.wish = face;
-    block.wishes.push_back({static_cast<std::uint32_t>(rank), free.point});
+    block.wishes.push_back({static_cast<std::uint32_t>(rank), at});
 }
 
 void DualVertices::grant_wishes(DualBlock& block, const std::array<const DualBlock*, 27>& around,
@@ -315,93 +368,8 @@ void DualVertices::grant_wishes(DualBlock& block, const std::array<const DualBlo
         }
         if (!is_free) continue;
         cell.granted = cell.wish;
-        block.vertices[cell.vertex].position = wish.position;
+        block.vertices[cell.vertex] = wish.position;
     }
-}
-
-/// Bottom-up: cubes whose eight parts are leaves or empty.
-void DualVertices::merge(DualBlock& block) {
-    for (Leaf& leaf : leaves_[0]) leaf.exists = leaf.exists || leaf.is_empty;
-    for (std::size_t level = 1; level < 4; ++level) {
-        const std::uint32_t count = block_side >> level;
-        for (std::uint32_t i = 0; i < count * count * count; ++i) {
-            if (!(block.mergeable[level - 1] >> i & 1)) continue;
-            merge_cube(block, level, {i % count, i / count % count, i / (count * count)});
-        }
-    }
-}
-
-void DualVertices::merge_cube(DualBlock& block, std::size_t level, const Lattice& cube) {
-    const std::uint32_t count = block_side >> level;
-    Leaf merged;
-    for (std::uint32_t c = 0; c < 8; ++c) {
-        const Lattice part{cube[0] * 2 + (c & 1), cube[1] * 2 + (c >> 1 & 1), cube[2] * 2 + (c >> 2)};
-        const Leaf& leaf = leaves_[level - 1][(part[2] * 2 * count + part[1]) * 2 * count + part[0]];
-        if (!leaf.exists) return;
-        if (leaf.is_empty) continue;
-        merged.is_empty = false;
-        merged.error.add(leaf.error);
-    }
-    Leaf& target = leaves_[level][(cube[2] * count + cube[1]) * count + cube[0]];
-    merged.exists = true;
-    if (!merged.is_empty) {
-        const std::uint32_t side = 1u << level;
-        const Lattice lower{cube[0] * side, cube[1] * side, cube[2] * side};
-        merged.position = merged.error.minimum(box_of(lower, side, options_.margin));
-        for (std::size_t i = 0; i < block.cells.size(); ++i) {
-            const Lattice at = local_of(block.cells[i].number);
-            if (at[0] / side != cube[0] || at[1] / side != cube[1] || at[2] / side != cube[2]) continue;
-            for (std::uint32_t k = first_of_[i]; k < first_of_[i + 1]; ++k) {
-                const Crossing& c = crossings_[k];
-                // Where the normal is unknown nothing may merge.
-                if (c.normal == Vec3{0, 0, 0}) return;
-                if (!(magnitude(dot(c.normal, merged.position - c.point)) <= options_.tolerance)) return;
-            }
-        }
-    }
-    target = merged;
-    if (!merged.is_empty)
-        block.merged[level - 1] |= std::uint64_t{1} << ((cube[2] * count + cube[1]) * count + cube[0]);
-}
-
-/// The vertices of the leaves that are left, in the order of their first cells.
-void DualVertices::number_vertices(DualBlock& block) {
-    std::vector<DualVertex> vertices;
-    std::vector<double> attributes;
-    std::array<std::vector<std::uint32_t>, 4> vertex_of;
-    for (std::size_t level = 1; level < 4; ++level) vertex_of[level].assign(leaves_[level].size(), ~0u);
-    const std::size_t wanted = options_.attributes;
-    for (DualCell& cell : block.cells) {
-        const Lattice at = local_of(cell.number);
-        const std::uint32_t old = cell.vertex;
-        cell.level = 0;
-        std::size_t leaf = 0;
-        for (std::uint8_t level = 1; level < 4; ++level) {
-            const std::uint32_t count = block_side >> level;
-            const std::size_t i = ((at[2] >> level) * count + (at[1] >> level)) * count + (at[0] >> level);
-            if (!leaves_[level][i].exists) break;
-            cell.level = level;
-            leaf = i;
-        }
-        cell.vertex = static_cast<std::uint32_t>(vertices.size());
-        const std::size_t sheets = cell.level > 0 ? 1 : patterns_[cell.signs].sheets;
-        if (cell.level > 0) {
-            std::uint32_t& known = vertex_of[cell.level][leaf];
-            if (known != ~0u) {
-                cell.vertex = known;
-                continue;
-            }
-            known = cell.vertex;
-            const Leaf& merged = leaves_[cell.level][leaf];
-            vertices.push_back({merged.position, unit(merged.error.normal_sum())});
-        } else {
-            for (std::size_t s = 0; s < sheets; ++s) vertices.push_back(block.vertices[old + s]);
-        }
-        for (std::size_t k = 0; k < sheets * wanted; ++k)
-            attributes.push_back(block.vertex_attributes[old * wanted + k]);
-    }
-    block.vertices = std::move(vertices);
-    block.vertex_attributes = std::move(attributes);
 }
 
 }  // namespace frep::contouring

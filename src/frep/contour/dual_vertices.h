@@ -26,8 +26,11 @@ class DualVertices {
   public:
     explicit DualVertices(const DualOptions& options) : options_(options) {}
 
-    /// Fills cells[].vertex, cells[].level, vertices and vertex_attributes of `block` from the crossings of
-    /// it and the next blocks. False when a crossing is missing: the field contradicts itself.
+    /// Numbers the sheets of the cells of `block` in cells[].vertex and returns how many there are.
+    static std::uint32_t number_sheets(DualBlock& block);
+    /// Fills vertices, vertex_normals and vertex_attributes of `block`, the spans as long as there are
+    /// sheets, from the crossings of it and the next blocks. Where leaves merge the spans become shorter.
+    /// False when a crossing is missing: the field contradicts itself.
     bool make(DualBlock& block, const NextBlocks& next);
 
     /// Grants the wishes of `block` where that is allowed. `around`: the block and those around
@@ -41,30 +44,40 @@ class DualVertices {
         Vec3 point;  ///< in cells from the block's first sample
         Vec3 normal;
         const double* attributes = nullptr;
+        std::uint8_t edge = 0;  ///< number in the cell
     };
     /// A cube of cells in one piece.
     struct Leaf {
         QuadraticError error;
-        Vec3 position;
+        Vec3 position;        ///< in cells from the leaf's lower corner
         bool exists = false;  ///< it is one leaf; without a surface it has no vertex
         bool is_empty = true;
     };
 
-    bool collect(const DualBlock& block, const NextBlocks& next);
-    void make_sheet(DualBlock& block, std::size_t rank, std::size_t sheet);
-    Vec3 anchor(const DualCell& cell, std::span<const std::uint32_t> members) const;
-    Vec3 fitted(const DualCell& cell, std::span<const std::uint32_t> members) const;
+    bool keeps_crossings() const { return options_.attributes > 0 || options_.tolerance > 0; }
+    bool sum_errors(const DualBlock& block, const NextBlocks& next);
+    void add_crossing(const DualBlock& block, const Lattice& lower, std::size_t axis, double root,
+                      const Vec3& normal);
+    void collect(const DualBlock& block, const NextBlocks& next, const DualCell& cell);
+    std::span<const Crossing> crossings_of(const DualBlock& block, const NextBlocks& next, std::size_t rank);
+    void make_sheet(DualBlock& block, const NextBlocks& next, std::size_t rank, std::size_t sheet);
+    Vec3 anchor(const Vec3& corner, std::span<const Crossing> members) const;
+    Vec3 fitted(const DualCell& cell, std::span<const Crossing> members) const;
     void merge(DualBlock& block);
     void merge_cube(DualBlock& block, std::size_t level, const Lattice& cube);
     void number_vertices(DualBlock& block);
-    void note_wish(DualBlock& block, std::size_t rank, const QuadraticError::Free& free) const;
-    void append_attributes(DualBlock& block, std::span<const std::uint32_t> members) const;
+    void note_wish(DualBlock& block, std::size_t rank, const Vec3& corner,
+                   const QuadraticError::Free& free) const;
+    void append_attributes(DualBlock& block, std::span<const Crossing> members) const;
 
     const std::array<CellPattern, 256>& patterns_ = cell_patterns();
     DualOptions options_;
-    std::vector<Crossing> crossings_;      ///< cell after cell
-    std::vector<std::uint32_t> first_of_;  ///< by rank of the cell, and an end
-    std::vector<std::uint8_t> edge_of_;    ///< number of the crossing's edge in its cell
+    std::array<std::uint16_t, 512> rank_of_{};  ///< of the crossed cells, by number
+    std::vector<QuadraticError> errors_;        ///< by vertex
+    std::vector<std::uint16_t> seen_;           ///< by rank of the cell: bits, edges with a crossing
+    std::vector<Crossing> crossings_;           ///< cell after cell if they are kept, else of one cell
+    std::vector<std::uint32_t> first_of_;       ///< if they are kept: by rank of the cell, and an end
+    std::vector<Crossing> members_;
     std::array<std::vector<Leaf>, 4> leaves_;
 };
 

@@ -11,6 +11,12 @@ namespace {
 constexpr double plane_angle = 0.03;
 /// Eigenvalues below this part of the largest are dropped: the square of the angle.
 constexpr double least_eigenvalue = plane_angle * plane_angle;
+/// Of the free minimum's way from the mean, along the eigenvector of the eigenvalue l (as a part of the sum
+/// of all three), 1 - (damping / (damping + l))^4 is kept: a half at l = 2e-4, all but 1e-8 at l = 0.1.
+constexpr double damping = 1e-3;
+/// Normals whose mean is shorter than the root of this make an edge whose line is worth knowing: of two
+/// planes, those with an angle of 0.14 between them or more.
+constexpr double smooth_square = 1 - 0.005;
 /// Pull towards the mean of the points along dropped directions, as a part of the largest eigenvalue.
 constexpr double pull = 1e-6;
 
@@ -137,70 +143,83 @@ SymmetricEigen eigen_of(const std::array<double, 6>& given) {
     return eigen;
 }
 
-void QuadraticError::add(const Vec3& p, const Vec3& n) {
-    points_ = points_ + p;
-    count_ += 1;
-    if (n == Vec3{0, 0, 0}) return;
-    planes_ += 1;
-    normals_ = normals_ + n;
-    matrix_[0] += n.x * n.x;
-    matrix_[1] += n.x * n.y;
-    matrix_[2] += n.x * n.z;
-    matrix_[3] += n.y * n.y;
-    matrix_[4] += n.y * n.z;
-    matrix_[5] += n.z * n.z;
-    right_ = right_ + n * dot(n, p);
+namespace {
+
+/// A symmetric matrix: xx, xy, xz, yy, yz, zz.
+struct Symmetric {
+    double xx, xy, xz, yy, yz, zz;
+    Vec3 operator*(const Vec3& v) const {
+        return {xx * v.x + xy * v.y + xz * v.z, xy * v.x + yy * v.y + yz * v.z,
+                xz * v.x + yz * v.y + zz * v.z};
+    }
+    Symmetric scaled(double s) const { return {xx * s, xy * s, xz * s, yy * s, yz * s, zz * s}; }
+    double trace() const { return xx + yy + zz; }
+    /// Its inverse times the determinant.
+    Symmetric adjugate() const {
+        return {yy * zz - yz * yz, xz * yz - xy * zz, xy * yz - xz * yy,
+                xx * zz - xz * xz, xy * xz - xx * yz, xx * yy - xy * xy};
+    }
+    double determinant(const Symmetric& adjugate) const {
+        return xx * adjugate.xx + xy * adjugate.xy + xz * adjugate.xz;
+    }
+};
+
+/// The direction that two of the eigenvalues of m do not see, if the third is as good as nothing; else zero.
+Vec3 line_of(const Symmetric& m) {
+    const Symmetric a = m.adjugate();  // of rank 1: the product of the two eigenvalues, times v v^T
+    const double squares = a.trace();
+    if (!(m.determinant(a) <= least_eigenvalue * m.trace() * squares)) return {0, 0, 0};
+    const Vec3 x{a.xx, a.xy, a.xz}, y{a.xy, a.yy, a.yz}, z{a.xz, a.yz, a.zz};
+    const Vec3 column = a.xx >= a.yy && a.xx >= a.zz ? x : a.yy >= a.zz ? y : z;
+    const double l = length(column);
+    return l > 0 ? column * (1 / l) : Vec3{0, 0, 0};
 }
 
-void QuadraticError::add(const QuadraticError& other) {
-    for (std::size_t i = 0; i < 6; ++i) matrix_[i] += other.matrix_[i];
-    right_ = right_ + other.right_;
-    points_ = points_ + other.points_;
-    normals_ = normals_ + other.normals_;
-    count_ += other.count_;
-    planes_ += other.planes_;
-}
+}  // namespace
 
 Vec3 QuadraticError::minimum(const Box3& box, Free* without) const {
     const Vec3 middle = mean();
-    if (without) *without = {middle, {0, 0, 0}};
-    if (planes_ == 0) return clamped(middle, box);
-    const std::array<double, 6>& m = matrix_;
-    // The pull of the planes at the mean: sum of n (n . (p - mean)).
-    const Vec3 force{right_.x - (m[0] * middle.x + m[1] * middle.y + m[2] * middle.z),
-                     right_.y - (m[1] * middle.x + m[3] * middle.y + m[4] * middle.z),
-                     right_.z - (m[2] * middle.x + m[4] * middle.y + m[5] * middle.z)};
-    Vec3 step;
-    const double sum = length(normals_);
-    SymmetricEigen eigen;
-    std::size_t rank = 1;
-    if (sum > planes_ * (1 - 0.25 * least_eigenvalue)) {
-        // One plane, up to the angle.
-        eigen.vectors[0] = normals_ / sum;
-        eigen.values[0] = planes_;
-        step = eigen.vectors[0] * (dot(eigen.vectors[0], force) / planes_);
-    } else {
-        eigen = eigen_of(m);
-        rank = 0;
-        for (; rank < 3 && eigen.values[rank] > least_eigenvalue * eigen.values[0]; ++rank) {
-            const Vec3& v = eigen.vectors[rank];
-            step = step + v * (dot(v, force) / eigen.values[rank]);
-        }
+    const Symmetric m{sums_[0], sums_[1], sums_[2], sums_[3], sums_[4], sums_[5]};
+    const double planes = m.trace();
+    if (!(planes > 0)) {
+        if (without) *without = {middle, {0, 0, 0}};
+        return clamped(middle, box);
     }
+    // The pull of the planes at the mean: sum of n (n . (p - mean)).
+    const Vec3 force = Vec3{sums_[6], sums_[7], sums_[8]} - m * middle;
+    const double more = damping * planes;
+    const Symmetric damped{m.xx + more, m.xy, m.xz, m.yy + more, m.yz, m.zz + more};
+    const Symmetric adjugate = damped.adjugate();
+    const Symmetric inverse = adjugate.scaled(1 / damped.determinant(adjugate));
+    const Vec3 first = inverse * force;
+    const Symmetric missing = inverse.scaled(more);
+    const Vec3 step = first + missing * (first + missing * (first + missing * first));
     const Vec3 free = middle + step;
-    if (without) *without = {free, rank == 2 ? eigen.vectors[2] : Vec3{0, 0, 0}};
-    if (box.contains(free)) return free;
+    if (without) {
+        const Vec3 sum = normal_sum();
+        const bool is_sharp = dot(sum, sum) < smooth_square * planes * planes;
+        *without = {free, is_sharp ? line_of(m) : Vec3{0, 0, 0}};
+    }
+    return box.contains(free) ? free : held(box, middle, force);
+}
+
+/// The minimum in the box, with eigenvalues below the least dropped.
+Vec3 QuadraticError::held(const Box3& box, const Vec3& middle, const Vec3& force) const {
+    const SymmetricEigen eigen = eigen_of({sums_[0], sums_[1], sums_[2], sums_[3], sums_[4], sums_[5]});
     // The kept part of the matrix, with a small pull to the mean.
     Matrix kept{};
     Triple b{};
-    for (std::size_t k = 0; k < rank; ++k) {
+    Vec3 free = middle;
+    for (std::size_t k = 0; k < 3 && eigen.values[k] > least_eigenvalue * eigen.values[0]; ++k) {
         const Triple v = triple(eigen.vectors[k]);
         const double f = dot(eigen.vectors[k], force);
+        free = free + eigen.vectors[k] * (f / eigen.values[k]);
         for (std::size_t i = 0; i < 3; ++i) {
             for (std::size_t j = 0; j < 3; ++j) kept[i][j] += eigen.values[k] * v[i] * v[j];
             b[i] += f * v[i];
         }
     }
+    if (box.contains(free)) return free;
     for (std::size_t i = 0; i < 3; ++i) kept[i][i] += pull * eigen.values[0];
     const Vec3 moved =
         middle + vector(minimum_on_boundary(kept, b, triple(box.min - middle), triple(box.max - middle)));

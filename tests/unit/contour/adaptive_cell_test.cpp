@@ -47,7 +47,8 @@ TEST_CASE("two cells agree about the arcs of a common face") {
                 continue;
             for (std::size_t axis = 1; axis < 3; ++axis) {
                 for (unsigned bits : {0u, axis == 1 ? 4u : 2u}) {
-                    const std::uint8_t here = cell_edge_at(axis, bits | 1u), there = cell_edge_at(axis, bits);
+                    const std::uint8_t here = cell_edges_at[axis][bits | 1u],
+                                       there = cell_edges_at[axis][bits];
                     const std::uint8_t p = cell_pattern(a).partner[1][here];
                     const std::uint8_t q = cell_pattern(b).partner[0][there];
                     REQUIRE((p == no_edge) == (q == no_edge));

@@ -46,6 +46,24 @@ TEST_CASE("a sphere: closed, near to the surface, with normals") {
     }
 }
 
+TEST_CASE("contour_solid takes the method of the options, the adaptive one by default") {
+    const FunctionField sphere = generic_field(sphere_function(1));
+    ContourOptions options{.bounds = Box3::cube(1.3), .cells = 16};
+    const auto first = contour_solid(sphere, options, {});
+    REQUIRE(static_cast<bool>(first));
+    CHECK(first->mesh.triangles == adaptive(sphere, options).mesh.triangles);
+    options.method = ContourMethod::cells;
+    const auto second = contour_solid(sphere, options, {});
+    const auto cells = contour_cells(sphere, options, {});
+    REQUIRE(static_cast<bool>(second));
+    CHECK(second->mesh.triangles == cells->mesh.triangles);
+    CHECK(second->mesh.triangles != first->mesh.triangles);
+    options.tolerance = 0.1;
+    const auto wrong = contour_solid(sphere, options, {});
+    REQUIRE_FALSE(static_cast<bool>(wrong));
+    CHECK(wrong.error().kind == ErrorKind::invalid_argument);
+}
+
 TEST_CASE("noise gives a closed manifold without self-intersections under the cap") {
     for (std::uint64_t seed = 0; seed < 6; ++seed) {
         CAPTURE(seed);
