@@ -36,6 +36,8 @@ constexpr std::array verbs = {
     Verb{"convert", "a mesh file in another format, or a model in an exchange form", run_convert},
     Verb{"field", "the function on a plane as a figure", run_field},
     Verb{"render", "a picture of a solid", run_render},
+    Verb{"morph", "a model in which one shape turns into another", run_morph},
+    Verb{"animate", "a moving picture of a model that changes, or turns", run_animate},
     Verb{"bench", "how long loading, evaluating, pictures and meshes take", run_bench},
 };
 

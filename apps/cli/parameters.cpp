@@ -37,11 +37,16 @@ class Names {
             count_ = annotations_.size();
     }
 
-    /// The parameter's number, from 1; nothing when the name is unknown, which is printed.
-    std::optional<std::int64_t> find(std::string_view name) const {
+    /// The parameter's number, as it stands in the name; nothing when the name is unknown.
+    std::optional<std::int64_t> look_up(std::string_view name) const {
         for (std::size_t i = 0; i < count_; ++i)
             if (same_name(annotations_[i].name, name)) return annotations_[i].index;
-        if (const auto index = index_of(name)) {
+        return index_of(name);
+    }
+
+    /// The parameter's number, from 1; nothing when the name is unknown, which is printed.
+    std::optional<std::int64_t> find(std::string_view name) const {
+        if (const auto index = look_up(name)) {
             if (*index >= 1) return index;
             usage_error(fmt::format("--param: `{}`: parameters are counted from 1", name));
             return std::nullopt;
@@ -112,6 +117,12 @@ std::optional<std::vector<double>> read_parameters(const Model& model, std::size
         print_warning(
             fmt::format("--param {}: the object has {} parameters: the value is ignored", beyond, count));
     return all;
+}
+
+std::optional<std::size_t> find_parameter(const Model& model, std::size_t object, std::string_view name) {
+    const auto index = Names(model, object).look_up(name);
+    if (!index || *index < 1) return std::nullopt;
+    return static_cast<std::size_t>(*index);
 }
 
 }  // namespace frep::cli

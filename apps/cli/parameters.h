@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "frep/frep.h"
@@ -15,5 +16,8 @@ namespace frep::cli {
 std::optional<std::vector<double>> read_parameters(const Model& model, std::size_t object,
                                                    const std::optional<std::string>& values,
                                                    const std::vector<std::string>& named);
+
+/// The number, from 1, of the parameter that `name` means: the name of a `--@ param` line, or a[3], a3.
+std::optional<std::size_t> find_parameter(const Model& model, std::size_t object, std::string_view name);
 
 }  // namespace frep::cli

@@ -26,7 +26,7 @@ class RenderRun {
     }
 
     int run() {
-        take_wishes_of_the_model();
+        take_wishes(options_, prepared_, plan_, finish_);
         const auto sampled = sampled_field(prepared_, plan_.iso, plan_.picture.material->uses_attributes);
         if (!sampled) return fail(sampled.error());
         SceneOptions options;
@@ -46,31 +46,6 @@ class RenderRun {
     }
 
   private:
-    void take_wishes_of_the_model() {
-        PictureOptions& picture = plan_.picture;
-        const auto& notes = prepared_.model.program().annotations;
-        if (!picture.color) picture.color = annotated_color(prepared_.model);
-        if (notes.view.size() == 2) {
-            if (!plan_.has_azimuth) picture.view.azimuth = notes.view[0];
-            if (!plan_.has_elevation) picture.view.elevation = notes.view[1];
-        }
-        if (!picture.material && !notes.material.empty()) {
-            picture.material = find_material(notes.material);
-            if (!picture.material)
-                print_warning(fmt::format("--@ material: no material `{}`", notes.material));
-        }
-        const bool colored = has_colors(prepared_);
-        if (!picture.material && colored && !options_.base_color) picture.material = find_material("skin");
-        if (!picture.material) picture.material = &materials().front();
-        if (colored && !options_.base_color && !picture.material->uses_attributes) {
-            finish_ = *picture.material;  // the model's own colors, with the finish of the material
-            finish_.uses_attributes = true;
-            picture.material = &finish_;
-        }
-        if (picture.material->uses_attributes && !colored)
-            print_warning("the model has no colors: material `skin` needs three attributes s[1..3]");
-    }
-
     static void warn(const SolidScene& scene) {
         if (!scene.has_solid()) print_warning("there is nothing to see: the solid is empty in the box");
         if (scene.sampled())

@@ -32,35 +32,6 @@ std::string_view useless_option(const RenderOptionTexts& o) {
     return {};
 }
 
-PlaneRenderOptions picture_options(const RenderPlan& plan, const PreparedModel& prepared, bool flags_color) {
-    PlaneRenderOptions options;
-    options.plane = Plane::across(unused_axis(prepared).value_or(2), 0);
-    options.width = plan.picture.width;
-    options.height = plan.picture.height;
-    const std::optional<Color> color =
-        plan.picture.color ? plan.picture.color : annotated_color(prepared.model);
-    if (color) options.color = *color;
-    options.attribute_colors = flags_color;
-    if (plan.picture.backdrop == Backdrop::transparent) options.background.reset();
-    if (plan.picture.backdrop == Backdrop::plain) options.background = plan.picture.backdrop_color;
-    return options;
-}
-
-/// Stated bounds fill the picture, a box that was found has a margin. Without a stated size the longer side
-/// has 1200 pixels and the shorter one takes the shape of the part, at least a quarter of that.
-void frame(PlaneRenderOptions& picture, const Box3& box, const RenderOptionTexts& options) {
-    picture.part = {picture.plane.flat(box.min), picture.plane.flat(box.max)};
-    if (options.bounds) picture.margin = 0;
-    if (options.size) return;
-    constexpr double longer_side = 1200;
-    const double longer = std::max(picture.part.width(), picture.part.height());
-    const auto side = [&](double length) {
-        return static_cast<int>(std::lround(longer_side * std::clamp(length / longer, 0.25, 1.0)));
-    };
-    picture.width = side(picture.part.width());
-    picture.height = side(picture.part.height());
-}
-
 /// Tells what a picture needs where the object has less than two axes.
 int refuse_thin(const PreparedModel& prepared) {
     const int n = prepared.header().coordinates();
@@ -71,18 +42,45 @@ int refuse_thin(const PreparedModel& prepared) {
 
 }  // namespace
 
-int render_flat(const RenderOptionTexts& options, const RenderPlan& plan, const PreparedModel& prepared) {
-    const double start = now_seconds();
+std::optional<int> refuse_flat(const RenderOptionTexts& options, const PreparedModel& prepared) {
     int axes = 0;
     for (int axis = 0; axis < 3; ++axis) axes += prepared.map.uses(axis) ? 1 : 0;
     if (axes < 2) return refuse_thin(prepared);
-    if (const std::string_view name = useless_option(options); !name.empty()) {
-        return usage_error(
-            prepared.map_given
-                ? fmt::format("{} is for solids; --map makes this object 2-D: it leaves {} out", name,
-                              "xyz"[unused_axis(prepared).value_or(2)])
-                : fmt::format("{} is for solids; this object is 2-D", name));
-    }
+    const std::string_view name = useless_option(options);
+    if (name.empty()) return std::nullopt;
+    return usage_error(prepared.map_given
+                           ? fmt::format("{} is for solids; --map makes this object 2-D: it leaves {} out",
+                                         name, "xyz"[unused_axis(prepared).value_or(2)])
+                           : fmt::format("{} is for solids; this object is 2-D", name));
+}
+
+PlaneRenderOptions flat_picture(const RenderOptionTexts& options, const RenderPlan& plan,
+                                const PreparedModel& prepared, const Box3& box, double longer_side) {
+    PlaneRenderOptions picture;
+    picture.plane = Plane::across(unused_axis(prepared).value_or(2), 0);
+    picture.width = plan.picture.width;
+    picture.height = plan.picture.height;
+    const std::optional<Color> color =
+        plan.picture.color ? plan.picture.color : annotated_color(prepared.model);
+    if (color) picture.color = *color;
+    picture.attribute_colors = has_colors(prepared) && !options.base_color;
+    if (plan.picture.backdrop == Backdrop::transparent) picture.background.reset();
+    if (plan.picture.backdrop == Backdrop::plain) picture.background = plan.picture.backdrop_color;
+    picture.part = {picture.plane.flat(box.min), picture.plane.flat(box.max)};
+    if (options.bounds) picture.margin = 0;
+    if (options.size) return picture;
+    const double longer = std::max(picture.part.width(), picture.part.height());
+    const auto side = [&](double length) {
+        return static_cast<int>(std::lround(longer_side * std::clamp(length / longer, 0.25, 1.0)));
+    };
+    picture.width = side(picture.part.width());
+    picture.height = side(picture.part.height());
+    return picture;
+}
+
+int render_flat(const RenderOptionTexts& options, const RenderPlan& plan, const PreparedModel& prepared) {
+    const double start = now_seconds();
+    if (const auto code = refuse_flat(options, prepared)) return *code;
     Job job;
     job.threads = prepared.threads;
     const bool colored = has_colors(prepared) && !options.base_color;
@@ -90,8 +88,7 @@ int render_flat(const RenderOptionTexts& options, const RenderPlan& plan, const 
     if (!sampled) return fail(sampled.error());
     const auto box = choose_box(prepared, plan.bounds, **sampled, job);
     if (!box) return fail(box.error());
-    PlaneRenderOptions picture = picture_options(plan, prepared, colored);
-    frame(picture, *box, options);
+    const PlaneRenderOptions picture = flat_picture(options, plan, prepared, *box);
     const auto result = render_plane(**sampled, picture, job);
     if (!result) return fail(result.error());
     if (result->area == 0) print_warning("there is nothing to see: the shape is empty in the box");

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "terminal.h"
 #include "values.h"
 
 namespace frep::cli {
@@ -85,7 +86,7 @@ Status plan_view(const RenderOptionTexts& options, RenderPlan& plan) {
     return {};
 }
 
-Status plan_look(const RenderOptionTexts& options, RenderPlan& plan) {
+Status plan_material(const RenderOptionTexts& options, RenderPlan& plan) {
     if (options.material) {
         plan.picture.material = find_material(*options.material);
         if (!plan.picture.material)
@@ -147,12 +148,15 @@ Status plan_space(const RenderOptionTexts& options, RenderPlan& plan) {
         if (!value) return about("--section", value.error());
         plan.section = {text[0] - 'x', *value};
     }
-    if (options.turntable) {
-        const auto count = parse_integer(*options.turntable, 1, 3600);
-        if (!count) return about("--turntable", count.error());
-        plan.turntable = static_cast<int>(*count);
-        plan.picture.framed_all_round = true;
-    }
+    return {};
+}
+
+Status plan_turntable(const RenderOptionTexts& options, RenderPlan& plan) {
+    if (!options.turntable) return {};
+    const auto count = parse_integer(*options.turntable, 1, 3600);
+    if (!count) return about("--turntable", count.error());
+    plan.turntable = static_cast<int>(*count);
+    plan.picture.framed_all_round = true;
     return {};
 }
 
@@ -172,14 +176,18 @@ Status check_output(const RenderOptionTexts& options, const RenderPlan& plan) {
         return usage(extension.empty()
                          ? fmt::format("'{}' has no extension; pictures are .png files", path)
                          : fmt::format("no picture format {}; pictures are .png files", extension));
-    std::error_code error;
-    if (!name.parent_path().empty() && !std::filesystem::is_directory(name.parent_path(), error))
-        return Error{ErrorKind::io, fmt::format("cannot write '{}': there is no folder '{}'", path,
-                                                name.parent_path().string())};
-    return {};
+    return check_folder(path);
 }
 
 }  // namespace
+
+Status check_folder(const std::string& path) {
+    const std::filesystem::path folder = std::filesystem::path(path).parent_path();
+    std::error_code error;
+    if (folder.empty() || std::filesystem::is_directory(folder, error)) return {};
+    return Error{ErrorKind::io,
+                 fmt::format("cannot write '{}': there is no folder '{}'", path, folder.string())};
+}
 
 Result<Color> parse_color(std::string_view text) {
     const auto digit = [](char c) {
@@ -222,8 +230,14 @@ Result<std::pair<int, int>> parse_size_pixels(std::string_view text) {
 }
 
 void declare_render_options(CommandLine& line, RenderOptionTexts& options) {
-    declare_model_options(line, options.model);
     line.text("-o,--output", options.output, "FILE", "the picture: .png; - for standard output");
+    line.text("--turntable", options.turntable, "N",
+              "N pictures of one turn: FILE-001.png, FILE-002.png, ...");
+    declare_look_options(line, options);
+}
+
+void declare_look_options(CommandLine& line, RenderOptionTexts& options) {
+    declare_model_options(line, options.model);
     line.text("--size", options.size, "WxH",
               "pixels (default 1200x900; 2-D: the object's shape); 800 is 800x800");
     line.text("--view", options.view, "NAME", "front, back, left, right, top, bottom or iso");
@@ -245,17 +259,47 @@ void declare_render_options(CommandLine& line, RenderOptionTexts& options) {
     line.text("--bounds", options.bounds, "BOX",
               "v, or min,max, or ax,bx,ay,by,az,bz; 2-D: ax,bx,ay,by (default: found)");
     line.text("--quality", options.quality, "NAME", "draft, normal (default) or high");
-    line.text("--turntable", options.turntable, "N",
-              "N pictures of one turn: FILE-001.png, FILE-002.png, ...");
+}
+
+Result<RenderPlan> plan_look(const RenderOptionTexts& options) {
+    RenderPlan plan;
+    if (const Status status = plan_view(options, plan); !status) return status.error();
+    if (const Status status = plan_material(options, plan); !status) return status.error();
+    if (const Status status = plan_space(options, plan); !status) return status.error();
+    return plan;
 }
 
 Result<RenderPlan> plan_render(const RenderOptionTexts& options) {
-    RenderPlan plan;
-    if (const Status status = plan_view(options, plan); !status) return status.error();
-    if (const Status status = plan_look(options, plan); !status) return status.error();
-    if (const Status status = plan_space(options, plan); !status) return status.error();
-    if (const Status status = check_output(options, plan); !status) return status.error();
+    auto plan = plan_look(options);
+    if (!plan) return plan.error();
+    if (const Status status = plan_turntable(options, *plan); !status) return status.error();
+    if (const Status status = check_output(options, *plan); !status) return status.error();
     return plan;
+}
+
+void take_wishes(const RenderOptionTexts& options, const PreparedModel& prepared, RenderPlan& plan,
+                 NamedMaterial& finish) {
+    PictureOptions& picture = plan.picture;
+    const auto& notes = prepared.model.program().annotations;
+    if (!picture.color) picture.color = annotated_color(prepared.model);
+    if (notes.view.size() == 2) {
+        if (!plan.has_azimuth) picture.view.azimuth = notes.view[0];
+        if (!plan.has_elevation) picture.view.elevation = notes.view[1];
+    }
+    if (!picture.material && !notes.material.empty()) {
+        picture.material = find_material(notes.material);
+        if (!picture.material) print_warning(fmt::format("--@ material: no material `{}`", notes.material));
+    }
+    const bool colored = has_colors(prepared);
+    if (!picture.material && colored && !options.base_color) picture.material = find_material("skin");
+    if (!picture.material) picture.material = &materials().front();
+    if (colored && !options.base_color && !picture.material->uses_attributes) {
+        finish = *picture.material;  // the model's own colors, with the finish of the material
+        finish.uses_attributes = true;
+        picture.material = &finish;
+    }
+    if (picture.material->uses_attributes && !colored)
+        print_warning("the model has no colors: material `skin` needs three attributes s[1..3]");
 }
 
 }  // namespace frep::cli

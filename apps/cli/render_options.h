@@ -16,6 +16,8 @@ struct RenderOptionTexts {
     bool ortho = false, no_ground = false;
 };
 void declare_render_options(CommandLine& line, RenderOptionTexts& options);
+/// Those of the model, the camera and the look: all but the output and the turntable.
+void declare_look_options(CommandLine& line, RenderOptionTexts& options);
 
 /// What they mean; the model's own wishes (`--@ material`, `--@ view`, `--@ color`) count where the command
 /// line is silent.
@@ -31,6 +33,16 @@ struct RenderPlan {
 
 /// Errors: invalid_argument, io for a folder of an output file that is not there.
 Result<RenderPlan> plan_render(const RenderOptionTexts& options);
+/// The same without the output and the turntable.
+Result<RenderPlan> plan_look(const RenderOptionTexts& options);
+/// Errors: io for a file whose folder is not there.
+Status check_folder(const std::string& path);
+
+/// Fills in what the model itself wishes (`--@ material`, `--@ view`, `--@ color`, its colors) where the
+/// command line is silent, with a warning for wishes that mean nothing. `finish` keeps a material that is
+/// made here and must live as long as the plan.
+void take_wishes(const RenderOptionTexts& options, const PreparedModel& prepared, RenderPlan& plan,
+                 NamedMaterial& finish);
 
 /// `#rrggbb` or `#rgb`.
 Result<Color> parse_color(std::string_view text);

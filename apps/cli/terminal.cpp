@@ -146,7 +146,7 @@ ProgressBar::~ProgressBar() {
     write_stderr("\r\x1b[K");
 }
 
-void ProgressBar::update(double share) {
+void ProgressBar::update(double share, double seconds_left) {
     if (!enabled_) return;
     const double now = now_seconds();
     if (now - start_ < 1 || now - drawn_ < 0.1) return;
@@ -156,7 +156,13 @@ void ProgressBar::update(double share) {
     std::string bar(static_cast<std::size_t>(full < 0 ? 0 : full > width ? width : full), '#');
     bar.resize(width, '.');
     bar_on_screen(true);
-    write_stderr(fmt::format("\r{} [{}] {:3.0f}%", label_, bar, share * 100));
+    std::string left;
+    if (seconds_left >= 0) {
+        const auto whole = static_cast<long>(seconds_left + 0.5);
+        left = whole < 60 ? fmt::format(", {} s left ", whole)
+                          : fmt::format(", {}:{:02} min left ", whole / 60, whole % 60);
+    }
+    write_stderr(fmt::format("\r{} [{}] {:3.0f}%{}", label_, bar, share * 100, left));
 }
 
 }  // namespace frep::cli

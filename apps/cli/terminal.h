@@ -49,8 +49,9 @@ class ProgressBar {
     ~ProgressBar();
     ProgressBar(const ProgressBar&) = delete;
     ProgressBar& operator=(const ProgressBar&) = delete;
-    /// `share` of the work is done, 0..1. Called from one thread at a time.
-    void update(double share);
+    /// `share` of the work is done, 0..1; with the time that is left, if it is known (>= 0). Called from one
+    /// thread at a time.
+    void update(double share, double seconds_left = -1);
 
   private:
     std::string_view label_;

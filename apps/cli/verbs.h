@@ -28,6 +28,8 @@ int run_mesh(Arguments arguments);
 int run_convert(Arguments arguments);
 int run_field(Arguments arguments);
 int run_render(Arguments arguments);
+int run_morph(Arguments arguments);
+int run_animate(Arguments arguments);
 int run_bench(Arguments arguments);
 
 }  // namespace frep::cli

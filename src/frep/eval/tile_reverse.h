@@ -54,6 +54,19 @@ void blend(const Walk& w, Demand d, unsigned rest, Record& r) {
     for (int k = 0; k < count; ++k) w.ask_value(k, active);
 }
 
+/// R-functions with a parameter, operand 2, that is a constant within `least` (excluded) and `most`: as R0
+/// where only the sign counts. They have no form by minimum and maximum here, and no bound of their slopes.
+template <bool united>
+void parametric_operation(const Walk& w, Demand d, float least, float most_of, Record& r) {
+    const bool good =
+        w.is_constant(2) && w.undefined(2) == 0 && w.range(2).lo[0] > least && w.range(2).hi[0] <= most_of;
+    const unsigned sign = good && !(d.margin > 0) ? d.sign() : 0;
+    const unsigned without_0 = united ? w.negative(0) : w.positive(0);
+    const unsigned without_1 = united ? w.negative(1) : w.positive(1);
+    choose(w, {d.live, d.live & ~sign, 0}, sign & without_0, sign & without_1, r);
+    w.ask_value(2, d.live & ~(unsigned{r.first} | unsigned{r.second}));
+}
+
 unsigned can_be_positive(const Row& a) {
     unsigned m = 0;
     for (int c = 0; c < 16; c += width) m |= bits(less(all(0.0f), load(a.hi + c))) << c;
@@ -171,6 +184,18 @@ void demand_of(const Walk& w, Demand d, Record& r) {
             return;
         case Op::r_or:
             set_operation<true, true>(w, d, r);
+            return;
+        case Op::r_alpha_and:
+            parametric_operation<false>(w, d, -1.0f, 1.0f, r);
+            return;
+        case Op::r_alpha_or:
+            parametric_operation<true>(w, d, -1.0f, 1.0f, r);
+            return;
+        case Op::rp_and:
+            parametric_operation<false>(w, d, 1.0f, endless, r);
+            return;
+        case Op::rp_or:
+            parametric_operation<true>(w, d, 1.0f, endless, r);
             return;
         case Op::bounded_uni:
             blend<true>(w, d, ~can_be_positive(w.range(2)), r);

@@ -183,4 +183,24 @@ Result<std::string> encode_png(const Image& image, const PngOptions& options) {
     return std::move(job.bytes);
 }
 
+Result<Image> decode_png(std::string_view bytes, std::int64_t most_pixels) {
+    // libpng's simplified interface: it jumps within itself only and reports by its return value.
+    png_image file{};
+    file.version = PNG_IMAGE_VERSION;
+    const auto broken = [&file] {
+        const std::string why = file.message;
+        png_image_free(&file);
+        return Error{ErrorKind::invalid_argument, fmt::format("cannot read the PNG file: {}", why)};
+    };
+    if (!png_image_begin_read_from_memory(&file, bytes.data(), bytes.size())) return broken();
+    if (std::int64_t{file.width} * std::int64_t{file.height} > most_pixels) {
+        png_image_free(&file);
+        return Error{ErrorKind::over_limit, fmt::format("the picture has more than {} pixels", most_pixels)};
+    }
+    file.format = PNG_FORMAT_RGBA;
+    Image image = Image::sized(static_cast<int>(file.width), static_cast<int>(file.height));
+    if (!png_image_finish_read(&file, nullptr, image.pixels.data(), 0, nullptr)) return broken();
+    return image;
+}
+
 }  // namespace frep

@@ -1,8 +1,10 @@
-// Pictures as PNG files (ISO/IEC 15948), through libpng, in memory. The same picture and options give the
-// same bytes: no time is written. Tested by tests/unit/io/png_test.cpp.
+// Pictures to and from PNG files (ISO/IEC 15948), through libpng, in memory. The same picture and options
+// give the same bytes: no time is written. Tested by tests/unit/io/png_test.cpp.
 #pragma once
 
+#include <cstdint>
 #include <string>
+#include <string_view>
 
 #include "frep/base/result.h"
 #include "frep/geom/image.h"
@@ -24,5 +26,10 @@ struct PngOptions {
 /// invalid_argument for a picture without pixels, one whose array has not width * height * 4 bytes, a side
 /// beyond 1e6 (libpng's limit), or an option out of range; over_limit when memory does not suffice.
 Result<std::string> encode_png(const Image& image, const PngOptions& options = {});
+
+/// The picture of a PNG file of any color type, as 8-bit sRGB with alpha. Errors: invalid_argument for bytes
+/// that are no PNG file or a broken one; over_limit for more than `most_pixels`, or when memory does not
+/// suffice.
+Result<Image> decode_png(std::string_view bytes, std::int64_t most_pixels = std::int64_t{1} << 26);
 
 }  // namespace frep

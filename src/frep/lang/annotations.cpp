@@ -15,8 +15,9 @@
 namespace frep::lang {
 namespace {
 
-constexpr std::array<std::string_view, 11> keys{"title", "author", "license",  "source", "units",   "bounds",
-                                                "param", "color",  "material", "view",   "hyperfun"};
+constexpr std::array<std::string_view, 12> keys{"title",    "author", "license",        "source",
+                                                "units",    "bounds", "param",          "color",
+                                                "material", "view",   "set-operations", "hyperfun"};
 
 bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\f'; }
 bool is_word(char c) {
@@ -106,6 +107,7 @@ class Reader {
         if (key == "color") return color(cursor);
         if (key == "material") return material(cursor);
         if (key == "view") return view(cursor);
+        if (key == "set-operations") return set_operations(cursor);
         if (key == "hyperfun") return dialect(cursor, line, key_place);
         text_of(key) = std::string(cursor.rest());
     }
@@ -130,7 +132,7 @@ class Reader {
         warn(Code::annotation_unknown_key, place,
              {fmt::format("there is no annotation {}", Reporter::quote(key)), "unknown key",
               near.empty() ? "known are title, author, license, source, units, bounds, param, color, "
-                             "material, view and hyperfun"
+                             "material, view, set-operations and hyperfun"
                            : fmt::format("did you mean `{}`?", near)});
     }
 
@@ -218,6 +220,41 @@ class Reader {
                          {},
                          "write azimuth and elevation: --@ view 30 20"});
         out_.view = std::move(values);
+    }
+
+    // set operations = "r0" | "min-max" | "r-alpha" number | "r0m" number | "rp" number
+    void set_operations(Cursor& cursor) {
+        using Kind = shapes::SetSystem::Kind;
+        struct Row {
+            std::string_view name;
+            Kind kind;
+            bool (*takes)(double);  ///< null: no number
+        };
+        constexpr std::array<Row, 5> systems{{
+            {"r0", Kind::r0, nullptr},
+            {"min-max", Kind::min_max, nullptr},
+            {"r-alpha", Kind::r_alpha, [](double v) { return v > -1 && v <= 1; }},
+            {"r0m", Kind::r0m, [](double v) { return v >= 0; }},
+            {"rp", Kind::rp, [](double v) { return v > 1; }},
+        }};
+        const Span place = cursor.span_of_rest(), word = cursor.place();
+        const std::string name = lower_case(source_.text(word));
+        cursor.skip(name.size());
+        for (const Row& row : systems) {
+            if (row.name != name) continue;
+            shapes::SetSystem system{row.kind, 0};
+            if (row.takes && !(cursor.number(system.parameter) && row.takes(system.parameter))) break;
+            if (!cursor.done()) break;
+            out_.set_operations = system;
+            if (row.kind != Kind::r0)
+                warn(Code::set_operations_differ, place,
+                     {"the operators | & \\ @ of this file are not those of old tools", "old tools use r0",
+                      "the solid is the same; values, blends and offsets differ"});
+            return;
+        }
+        warn(Code::annotation_malformed, place,
+             {fmt::format("{} is no system of set operations", report_.quote(place)), "unknown system",
+              "write r0, min-max, r-alpha 0.5 (above -1, up to 1), r0m 1 (from 0) or rp 4 (above 1)"});
     }
 
     // dialect = "2" | "3", in the file's first line

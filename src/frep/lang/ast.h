@@ -157,7 +157,8 @@ struct Annotations {
     std::string material;        ///< of pictures, lower case; empty when absent
     std::vector<double> view;    ///< of pictures: azimuth and elevation in degrees; empty when absent
     std::vector<ParameterAnnotation> parameters;
-    int dialect = 2;  ///< 3 after `--@ hyperfun 3` as the first line
+    shapes::SetSystem set_operations;  ///< what the operators | & \ @ mean
+    int dialect = 2;                   ///< 3 after `--@ hyperfun 3` as the first line
 };
 
 struct Program {

@@ -74,6 +74,7 @@ NodeId Lowerer::library_call(const ExpressionNode& node) {
                    fmt::format("the value is then {:.0f}, as in the old tools", shapes::error_value));
         };
         build.decides = [&](Expression value) { known(value.id()); };
+        build.set_system = set_system();
         const std::size_t before = graph().size();
         result = function.invoke(build, values).id();
         step(static_cast<std::int64_t>(graph().size() - before));

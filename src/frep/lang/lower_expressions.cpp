@@ -5,6 +5,7 @@
 
 #include "frep/lang/lowerer.h"
 #include "frep/math/number.h"
+#include "frep/shapes/set_operations.h"
 
 namespace frep::lang {
 
@@ -146,12 +147,12 @@ NodeId Lowerer::combine(Operator op, NodeId a, NodeId b) {
         case Operator::subtract:
             return make(Op::sub, {a, b});
         case Operator::unite:
-            return make(Op::r_or, {a, b});
+            return shapes::disjunction(set_system(), expression(a), expression(b)).id();
         case Operator::intersect:
         case Operator::product:
-            return make(Op::r_and, {a, b});
+            return shapes::conjunction(set_system(), expression(a), expression(b)).id();
         case Operator::subtract_solid:
-            return make(Op::r_and, {a, make(Op::neg, {b})});
+            return shapes::subtraction(set_system(), expression(a), expression(b)).id();
         case Operator::multiply:
             return make(Op::mul, {a, b});
         case Operator::divide:

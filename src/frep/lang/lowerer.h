@@ -141,6 +141,8 @@ class Lowerer {
     bool in_region() const { return target_.region != nullptr; }
     NodeId constant(double value) { return graph().constant(value); }
     NodeId make(Op op, std::initializer_list<NodeId> args) { return graph().make(op, args); }
+    Expression expression(NodeId id) { return {graph(), id}; }
+    const shapes::SetSystem& set_system() const { return program_.annotations.set_operations; }
     bool stopped() const { return stopped_; }
     /// Counts work; stops the lowering with a diagnostic beyond the limit.
     bool step(std::int64_t count = 1);

@@ -67,7 +67,11 @@ struct Table {
         add("Convolution", convolution_rows());
         add("Free-form volumes", freeform_rows());
         add("Transformations", transform_rows());
+        add("Set operations", set_operation_rows());
         add("Blends", blend_rows());
+        add("Blends by points", control_point_rows());
+        add("Metamorphosis", metamorphosis_rows());
+        add("Polygons", polygon_rows());
         add("Distance", distance_rows());
         add("Noise", noise_rows());
         add("Attributes", attribute_rows());

@@ -23,6 +23,14 @@ using ArrayInOut = std::span<Expression>;
 /// What the old library answers for wrong array sizes and degenerate parameters.
 inline constexpr double error_value = -1111111111111.0;
 
+/// A system of R-functions: what the operators | & \ @ of a file mean.
+struct SetSystem {
+    enum class Kind : unsigned char { r0, min_max, r_alpha, r0m, rp };
+    Kind kind = Kind::r0;
+    double parameter = 0;  ///< alpha in (-1, 1], m >= 0, or p > 1
+    bool operator==(const SetSystem&) const = default;
+};
+
 /// What a builder gets from its caller beside its arguments.
 struct Build {
     Graph& graph;
@@ -32,6 +40,8 @@ struct Build {
     std::function<Result<std::string>(std::string_view)> read_file;
     /// Told of every expression whose present number decides the shape of the graph (a size, a count).
     std::function<void(Expression)> decides = {};
+    /// The file's operators, for functions that stand for several of them.
+    SetSystem set_system = {};
 
     Expression constant(double value) const { return {graph, graph.constant(value)}; }
     Expression error(const std::string& message) const {

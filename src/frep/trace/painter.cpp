@@ -64,15 +64,16 @@ const NamedMaterial& material_of(const PictureOptions& options) {
 }
 
 /// The points that the camera must see; all round: circles through them.
-std::vector<Vec3> framed_points(const DistanceGrid& grid, bool all_round) {
-    std::vector<Vec3> points = grid.surface_points();
+std::vector<Vec3> framed_points(const DistanceGrid& grid, const PictureOptions& options) {
+    std::vector<Vec3> points;
+    if (!options.stage) points = grid.surface_points();
     if (points.empty()) {
+        const Box3 box = options.stage.value_or(grid.clip());
         for (unsigned c = 0; c < 8; ++c)
-            points.push_back({c & 1 ? grid.clip().min.x : grid.clip().max.x,
-                              c & 2 ? grid.clip().min.y : grid.clip().max.y,
-                              c & 4 ? grid.clip().min.z : grid.clip().max.z});
+            points.push_back({c & 1 ? box.min.x : box.max.x, c & 2 ? box.min.y : box.max.y,
+                              c & 4 ? box.min.z : box.max.z});
     }
-    if (!all_round) return points;
+    if (!options.framed_all_round) return points;
     Vec3 lo = points[0], hi = points[0];
     for (const Vec3& p : points) {
         lo = {std::min(lo.x, p.x), std::min(lo.y, p.y), std::min(lo.z, p.z)};
@@ -115,14 +116,15 @@ Painter::Painter(const DistanceGrid& grid, FieldPool& fields, const SceneOptions
       options_(options),
       material_(material_of(options)),
       section_material_{"section", "", {options.section_color, 0, 0.8, 0}},
-      camera_(options.view, framed_points(grid, options.framed_all_round), options.width, options.height),
+      camera_(options.view, framed_points(grid, options), options.width, options.height),
       studio_(options.view.azimuth),
       stage_{grid,
              studio_,
              material_,
              linear(options.color.value_or(material_.look.base)),
              length({grid.cells()[0] * 1.0, grid.cells()[1] * 1.0, grid.cells()[2] * 1.0}) * grid.step(),
-             {options.ground && grid.has_solid(), grid.lowest()},
+             {options.ground && (options.stage || grid.has_solid()),
+              options.stage ? options.stage->min.z : grid.lowest()},
              cones_of(scene.quality)},
       shader_(stage_),
       section_base_(linear(options.section_color)) {

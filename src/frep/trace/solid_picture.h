@@ -45,6 +45,9 @@ struct PictureOptions {
     View view;
     /// Turns of the object that must fit, too: the picture is framed for all azimuths. For turntables.
     bool framed_all_round = false;
+    /// The box that must fit, in place of the solid, and on whose bottom the table is: for pictures of one
+    /// animation, whose camera stands still.
+    std::optional<Box3> stage;
     const NamedMaterial* material = nullptr;  ///< the first of the table if null
     std::optional<Color> color;               ///< in place of the material's own
     Color section_color{0.86, 0.79, 0.66};

@@ -289,7 +289,7 @@ class RandomSolid {
         using frep::Op;
         const auto other = [&] { return pool.empty() ? leaf() : pool[random_.below(pool.size())]; };
         const double k = random_.real(0.05, 0.3);
-        switch (random_.below(12)) {
+        switch (random_.below(14)) {
             case 0:
             case 1:
                 return min(a, b);
@@ -312,6 +312,13 @@ class RandomSolid {
                              {a, b, number(k), number(0.3), number(0.3)});
             case 10:
                 return select(less(other(), k), a, b);
+            case 11: {
+                constexpr Op systems[] = {Op::r_alpha_and, Op::r_alpha_or, Op::rp_and,
+                                          Op::rp_or,       Op::r0m_and,    Op::r0m_or};
+                const auto kind = random_.below(6);
+                const double parameter = kind < 2 ? random_.real(-0.9, 1) : random_.real(1.2, 5);
+                return apply(systems[kind], {a, b, number(parameter)});
+            }
             default:
                 return random_.chance(50) ? a * b : a / (1.5 + square(b));
         }

@@ -7,4 +7,5 @@
 #include "frep/field/kernels/distance.h"
 #include "frep/field/kernels/freeform.h"
 #include "frep/field/kernels/noise.h"
+#include "frep/field/kernels/rsystems.h"
 #include "frep/field/kernels/skeleton.h"

@@ -1,0 +1,101 @@
+// Implementation of moving_model.h.
+#include "moving_model.h"
+
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "parameters.h"
+#include "terminal.h"
+#include "values.h"
+
+namespace frep::cli {
+
+namespace {
+
+Error usage(std::string message) { return {ErrorKind::invalid_argument, std::move(message)}; }
+
+std::optional<std::size_t> find_coordinate(std::string_view name, std::size_t count) {
+    for (std::size_t i = 0; i < count; ++i)
+        if (name == coordinate_name(i) || name == fmt::format("x{}", i + 1)) return i;
+    return std::nullopt;
+}
+
+/// All names that something of the model could be moved by.
+std::string names_of(const PreparedModel& prepared) {
+    std::string out;
+    for (std::size_t i = 0; i < prepared.map.coordinates.size(); ++i)
+        if (prepared.map.coordinates[i].axis < 0) out += (out.empty() ? "" : ", ") + coordinate_name(i);
+    for (const auto& parameter : prepared.model.program().annotations.parameters)
+        out += (out.empty() ? "" : ", ") + parameter.name;
+    return out;
+}
+
+}  // namespace
+
+Result<Along> parse_along(std::string_view text) {
+    const std::size_t equals = text.find('='), dots = text.find("..");
+    if (equals == 0 || equals == text.npos || dots == text.npos || dots < equals)
+        return usage(fmt::format("`{}` is not of the form NAME=A..B, as in t=-10..10", text));
+    const auto from = parse_number(text.substr(equals + 1, dots - equals - 1));
+    const auto to = parse_number(text.substr(dots + 2));
+    if (!from) return from.error();
+    if (!to) return to.error();
+    if (!std::isfinite(*from) || !std::isfinite(*to) || *from == *to)
+        return usage(fmt::format("`{}` must run between two different finite numbers", text));
+    return Along{std::string(text.substr(0, equals)), *from, *to};
+}
+
+Result<MovingModel> MovingModel::make(PreparedModel& prepared, const std::optional<Along>& along) {
+    MovingModel out(prepared);
+    if (!along) return out;
+    const std::string name = lower_case(along->name);
+    const auto count = prepared.map.coordinates.size();
+    if (const auto coordinate = find_coordinate(name, count)) {
+        if (prepared.map_given && prepared.map.coordinates[*coordinate].axis >= 0)
+            return usage(
+                fmt::format("--along: coordinate {} is an axis of the picture (--map)", along->name));
+        out.coordinate_ = coordinate;
+        out.name_ = coordinate_name(*coordinate);
+        return out;
+    }
+    const auto index = find_parameter(prepared.model, prepared.object, name);
+    if (index && *index <= prepared.field().parameters.size()) {
+        out.parameter_ = *index - 1;
+        out.name_ = along->name;
+        return out;
+    }
+    const std::string known = names_of(prepared);
+    return usage(fmt::format("--along: the object has no coordinate or parameter `{}`{}", along->name,
+                             known.empty() ? "" : "; there are " + known));
+}
+
+Status MovingModel::set(double value) {
+    PreparedModel& p = *prepared_;
+    if (coordinate_) {
+        p.map.coordinates[*coordinate_] = {.axis = -1, .value = value};
+        return {};
+    }
+    if (!parameter_) return {};
+    std::vector<double> values = p.field().parameters;
+    values[*parameter_] = value;
+    if (*parameter_ < p.lowered.structural.size() && !p.lowered.structural[*parameter_]) {
+        p.lowered.field.parameters = std::move(values);
+        return {};
+    }
+    Diagnostics found;
+    auto lowered = p.model.lower(p.object, values, found);
+    if (!lowered) {
+        print_diagnostics(found, p.model.source());
+        return Error{ErrorKind::invalid_model,
+                     fmt::format("the model cannot be evaluated with {} = {}", name_, number_text(value))};
+    }
+    p.lowered = std::move(*lowered);
+    return {};
+}
+
+Result<std::unique_ptr<SampledField>> MovingModel::field(double iso, bool attributes) const {
+    return sampled_field(*prepared_, iso, attributes);
+}
+
+}  // namespace frep::cli

@@ -1,0 +1,100 @@
+// Implementation of at_point.h.
+#include "frep/shapes/at_point.h"
+
+#include <algorithm>
+#include <unordered_map>
+
+#include "frep/field/meaning.h"
+
+namespace frep::shapes {
+
+namespace {
+
+/// The nodes below `f` down to the items of x, which stand for themselves.
+std::vector<bool> nodes_above(const Graph& graph, NodeId f, Array x) {
+    std::vector<bool> needed(f + 1, false);
+    needed[f] = true;
+    for (NodeId id = f + 1; id-- > 0;) {
+        if (!needed[id]) continue;
+        if (std::any_of(x.begin(), x.end(), [&](const Expression& item) { return item.id() == id; }))
+            continue;
+        for (const NodeId argument : graph.arguments(id)) needed[argument] = true;
+    }
+    return needed;
+}
+
+/// True for leaves that mean another value at another point.
+bool moves(const Node& node) {
+    switch (node.op) {
+        case Op::coordinate:
+        case Op::cell:
+        case Op::load:
+        case Op::region:
+        case Op::output:
+            return true;
+        default:
+            return false;
+    }
+}
+
+}  // namespace
+
+std::optional<Expression> at_point(Build& build, Expression f, Array x, Array p) {
+    Graph& graph = build.graph;
+    if (x.size() != p.size()) return std::nullopt;
+    const std::vector<bool> needed = nodes_above(graph, f.id(), x);
+    std::vector<NodeId> made(f.id() + 1, 0);
+    std::vector<NodeId> arguments;
+    std::vector<std::uint32_t> block_names;
+    for (NodeId id = 0; id <= f.id(); ++id) {
+        if (!needed[id]) continue;
+        const auto item = std::find_if(x.begin(), x.end(), [&](const Expression& e) { return e.id() == id; });
+        if (item != x.end()) {
+            made[id] = p[static_cast<std::size_t>(item - x.begin())].id();
+            continue;
+        }
+        if (moves(graph.node(id))) return std::nullopt;
+        arguments.clear();
+        for (const NodeId argument : graph.arguments(id)) arguments.push_back(made[argument]);
+        const bool same = std::ranges::equal(arguments, graph.arguments(id));
+        made[id] = same ? id : graph.make_as(graph, id, arguments, block_names);
+    }
+    return Expression(graph, made[f.id()]);
+}
+
+std::optional<LocalValue> value_at(Build& build, Expression f, Array x, const Vec3& p) {
+    using Dual = math::Dual<double>;
+    const Graph& graph = build.graph;
+    const std::vector<bool> needed = nodes_above(graph, f.id(), x);
+    const std::array<double, 3> at{p.x, p.y, p.z};
+    std::vector<Dual> values(f.id() + 1);
+    std::vector<Dual> arguments;
+    for (NodeId id = 0; id <= f.id(); ++id) {
+        if (!needed[id]) continue;
+        const auto item = std::find_if(x.begin(), x.end(), [&](const Expression& e) { return e.id() == id; });
+        if (item != x.end()) {
+            const auto axis = static_cast<std::size_t>(item - x.begin());
+            values[id] = axis < 3 ? Dual::variable(at[axis], static_cast<int>(axis)) : Dual(0.0);
+            continue;
+        }
+        const Node& node = graph.node(id);
+        if (moves(node)) return std::nullopt;
+        if (info(node.op).kind == OpKind::leaf) {
+            const auto number = graph.bound_value(id);
+            if (!number) return std::nullopt;
+            values[id] = Dual(*number);
+            if (node.op == Op::parameter && build.decides) build.decides({build.graph, id});
+            continue;
+        }
+        arguments.clear();
+        for (const NodeId argument : graph.arguments(id)) arguments.push_back(values[argument]);
+        const auto block =
+            info(node.op).kind == OpKind::block ? graph.block_of(id) : std::span<const double>();
+        values[id] = meaning<Dual>(node.op, arguments, block);
+    }
+    const Dual& root = values[f.id()];
+    if (root.value != root.value) return std::nullopt;
+    return LocalValue{root.value, {root.d[0], root.d[1], root.d[2]}};
+}
+
+}  // namespace frep::shapes
