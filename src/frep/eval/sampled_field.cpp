@@ -82,6 +82,8 @@ class MappedField final : public SampledField {
         return !evaluator_->clauses() || frep::has_dear_ranges(*evaluator_->clauses());
     }
 
+    bool can_be_narrowed() const override { return evaluator_->clauses() != nullptr; }
+
     void narrow(std::span<const Box3> boxes, std::span<SignRange> out,
                 std::span<std::shared_ptr<SampledField>> parts) override {
         if (has_narrowing())

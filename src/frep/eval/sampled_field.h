@@ -53,6 +53,9 @@ class SampledField {
     /// True where ranges cost much more than values do, so that samples find a surface sooner than proofs do:
     /// a field that cannot be narrowed, or has sums of many terms.
     virtual bool has_dear_ranges() const { return true; }
+    /// True where narrow() finds smaller parts: a field without loops that depend on the point, whose ranges
+    /// cost thousands of values.
+    virtual bool can_be_narrowed() const { return false; }
     /// ranges(), and what stands for F in the boxes where its sign is open: parts[b] has the sign of F at
     /// every point of box b, is undefined where F is, and has the gradient of F where F = 0; its other values
     /// may differ from those of F, also between boxes. Null where that would gain nothing over this object.

@@ -59,6 +59,12 @@ constexpr std::array patterns{
     Pattern{Op::select, "select(abs({0})-1e-6,{2},{1})"},
     Pattern{Op::r_and, "Frep_and({0},{1})"},
     Pattern{Op::r_or, "Frep_or({0},{1})"},
+    Pattern{Op::r_alpha_and, "Frep_alpha({0},{1},{2},-1)"},
+    Pattern{Op::r_alpha_or, "Frep_alpha({0},{1},{2},1)"},
+    Pattern{Op::r0m_and, "(Frep_and({0},{1})*pow(Frep_hypot({0},{1}),{2}))"},
+    Pattern{Op::r0m_or, "(Frep_or({0},{1})*pow(Frep_hypot({0},{1}),{2}))"},
+    Pattern{Op::rp_and, "({0}+{1}-Frep_norm({0},{1},{2}))"},
+    Pattern{Op::rp_or, "({0}+{1}+Frep_norm({0},{1},{2}))"},
     Pattern{Op::blend_uni, "Frep_blend({0},{1},{2},{3},{4})"},
     Pattern{Op::blend_int, "(-Frep_blend(-{0},-{1},-{2},{3},{4}))"},
     Pattern{Op::point_uni, "Frep_point({0},{1},{2},{3},{4})"},
@@ -113,6 +119,8 @@ std::string_view pov_prelude() {
 #declare Frep_truth = function(a) { select(abs(a)-1e-6,0,1) }
 #declare Frep_and = function(a,b) { a+b-sqrt(a*a+b*b) }
 #declare Frep_or = function(a,b) { a+b+sqrt(a*a+b*b) }
+#declare Frep_alpha = function(a,b,k,s) { (a+b+s*sqrt(max(0,a*a+b*b-2*k*a*b)))/(1+k) }
+#declare Frep_norm = function(a,b,p) { pow(pow(abs(a),p)+pow(abs(b),p),1/p) }
 #declare Frep_bell = function(a) { a*a*a/(2-a) }
 #declare Frep_blend = function(f1,f2,a0,a1,a2) { Frep_or(f1,f2)+select(abs(a0*a1*a2),0,0,a0/(1+(f1/a1)*(f1/a1)+(f2/a2)*(f2/a2))) }
 #declare Frep_within = function(a,a0) { select(a-1,a0*Frep_bell(1-a),0) }

@@ -29,10 +29,14 @@ std::string Reporter::quote(std::string_view text) {
 }
 
 void Reporter::report(Code code, Span span, Words words) {
-    if (info(code).severity == Severity::error)
-        error(code, span, std::move(words));
-    else
-        warning(code, span, std::move(words));
+    switch (info(code).severity) {
+        case Severity::error:
+            return error(code, span, std::move(words));
+        case Severity::warning:
+            return warning(code, span, std::move(words));
+        case Severity::note:
+            if (!stopped_) keep(Severity::note, code, span, std::move(words));
+    }
 }
 
 void Reporter::error(Code code, Span span, Words words) {

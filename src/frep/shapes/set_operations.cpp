@@ -228,7 +228,7 @@ Rows set_operation_rows() {
             "hfRpSub", norm,
             {"Subtraction of f2 from f1 by the system R_p.", "hfRpInt(f1, -f2, p)", rvachev, norm_note},
             false),
-        row<&complement>("hfComplement", "f", {"All that is outside of the solid.", "-f", thesis}, false),
+        row<&complement>("hfComplement", "f", {"All that is outside of the solid.", "-1 f", thesis}, false),
         row<&symmetric_difference>("hfSymDiff", two,
                                    {"Symmetric difference: what belongs to one of the two, not to both.",
                                     "(f1 \\ f2) | (f2 \\ f1)", thesis, "By the file's system of operations."},

@@ -93,7 +93,8 @@ Result<SolidScene> SolidScene::make(const SampledField& field, const SceneOption
     auto grid = tracing::DistanceGrid::make(*parts->pool, *clip, cells_of(options), job);
     if (!grid) return grid.error();
     parts->grid = std::move(*grid);
-    const bool wanted = options.quality != PictureQuality::draft || !parts->field->has_dear_ranges();
+    const bool wanted = options.quality == PictureQuality::high || !parts->field->has_dear_ranges() ||
+                        (options.quality == PictureQuality::normal && parts->field->can_be_narrowed());
     parts->by_proof = wanted && !parts->grid.sampled();
     return SolidScene(std::move(parts));
 }

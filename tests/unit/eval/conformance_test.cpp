@@ -356,5 +356,5 @@ TEST_CASE("fields that no engine can run are refused") {
     EvaluatorOptions options;
     options.registers = 2;
     CHECK_FALSE(make_evaluator(field, options));
-    CHECK(engines().size() == 2);
+    CHECK(engines().size() >= 2);  // jit where the machine has it
 }

@@ -118,25 +118,37 @@ T r_alpha_or(T a, T b, T alpha) {
 template <class T>
 T r0m_and(T a, T b, T m) {
     const T base = math::r_and(a, b);
-    const T size = math::pow(math::hypot(a, b), m);
+    // finite, so that 0 times it is 0
+    const T size = math::min(math::pow(math::hypot(a, b), m), math::constant<T>(0x1p1000));
     const auto flat = math::equal(m, zero<T>());
     const T value = math::select(flat, base, rsystem_detail::saturated(base * size, base));
     const T result = math::select(math::less(m, zero<T>()), math::constant<T>(math::quiet_nan), value);
     return defined_with(result, a, b, m);
 }
+/// The sign is that of the base, whatever is lost on the way.
 inline Interval r0m_and(Interval a, Interval b, Interval m) {
     if (any_empty(a, b, m) || m.hi < 0.0) return Interval::empty();
+    const double limit = math::r_limit, least = 0x1p-1022, most = 0x1p1000;
     const Interval base = math::r_and(a, b);
-    const bool undefined = any_flagged(a, b, m) || m.lo < 0.0;
-    const Interval exponent{m.lo > 0.0 ? m.lo : 0.0, m.hi};
-    Interval value = base * math::pow(math::hypot(a, b), exponent);
-    if (value.is_empty()) value = unknown();
-    const double limit = math::r_limit, least = 0x1p-1022;
-    // the sign of the base stays, whatever is lost on the way
-    const double low = base.lo > 0.0 ? (value.lo > least ? value.lo : least) : value.lo;
-    const double high = base.hi < 0.0 ? (value.hi < -least ? value.hi : -least) : value.hi;
-    return cut(stepped(low, high, 8, undefined), base.lo > 0.0 ? least : -limit,
-               base.hi < 0.0 ? -least : limit);
+    const Interval power = math::pow(math::hypot(a, b), Interval(m.lo > 0.0 ? m.lo : 0.0, m.hi));
+    const Interval size =
+        power.is_empty() ? Interval(0.0, most)
+                         : Interval(power.lo < most ? power.lo : most, power.hi < most ? power.hi : most);
+    const Interval product = base * size;
+    double low = product.lo, high = product.hi;
+    if (!(m.lo > 0.0)) {  // m = 0 is the base itself
+        low = base.lo < low ? base.lo : low;
+        high = base.hi > high ? base.hi : high;
+    }
+    const Interval wide = stepped(low, high, 8);
+    const auto within = [limit](double v) { return v < -limit ? -limit : v < limit ? v : limit; };
+    low = within(wide.lo);
+    high = within(wide.hi);
+    if (base.lo > 0.0) low = low > least ? low : least;
+    if (base.lo < 0.0) low = low < -least ? low : -least;
+    if (base.hi > 0.0) high = high > least ? high : least;
+    if (base.hi < 0.0) high = high < -least ? high : -least;
+    return {low < high ? low : high, high, any_flagged(a, b, m) || m.lo < 0.0};
 }
 template <class T>
 T r0m_or(T a, T b, T m) {
@@ -157,7 +169,7 @@ T rp_and(T a, T b, T p) {
             little = math::select(turned, size_high, size_low);
     const auto none = math::equal(big, zero<T>());
     const T q = math::select(none, zero<T>(), little / big);
-    const T power = math::select(math::equal(little, zero<T>()), zero<T>(), math::exp(p * math::log(q)));
+    const T power = math::select(math::equal(q, zero<T>()), zero<T>(), math::exp(p * math::log(q)));
     const T excess = math::exp(math::log(1.0 + power) / p) - 1.0;  // of the norm over `big`
     const T inner = low - big * excess;
     const T outer = (low + high) - big * (1.0 + excess);
