@@ -30,7 +30,8 @@ struct Blend {
 };
 
 constexpr double span = 10;  ///< the blend's own time runs from -span to span
-constexpr int trial_frames = 21, trial_cells_flat = 96, trial_cells_solid = 32;
+constexpr int trial_frames = 41, trial_cells_flat = 96, trial_cells_solid = 32;
+constexpr double least_share = 0.5;  ///< of the smaller shape, that every frame must have
 
 Error usage(std::string message) { return {ErrorKind::invalid_argument, std::move(message)}; }
 
@@ -109,8 +110,8 @@ class MorphRun {
 
     Box3 both() const { return joined(boxes_[0], boxes_[1]); }
 
-    /// The smallest displacement, of a row of doubled ones, with which no frame is empty, and none falls into
-    /// more parts than the two shapes have.
+    /// The smallest displacement, of a row of doubled ones, with which no frame is much smaller than the
+    /// shapes, and none falls into more parts than they have.
     Status find_strength() {
         Box3 box = both();
         const double size = box.diagonal();
@@ -140,7 +141,8 @@ class MorphRun {
         return {};
     }
 
-    /// Empty frames count 100, each part too many 1.
+    /// 0 where all is well: a frame that is smaller than a share of the smaller shape counts up to 10, each
+    /// part too many 1.
     Result<double> try_out(const Blend& blend, const Box3& box) {
         const Model model(Source("morph.hf", model_text(blend)));
         Diagnostics found;
@@ -169,8 +171,12 @@ class MorphRun {
                                            coordinates_ == 2 ? trial_cells_flat : trial_cells_solid, job_);
         if (!frames) return frames.error();
         const int most = std::max({1, frames->front().components, frames->back().components});
+        const double floor = least_share * std::min(frames->front().size, frames->back().size);
         double bad = 0;
-        for (const FrameMeasure& m : *frames) bad += m.size == 0 ? 100 : std::max(0, m.components - most);
+        for (const FrameMeasure& m : *frames) {
+            bad += std::max(0, m.components - most);
+            if (m.size < floor) bad += 10 * (1 - m.size / floor);
+        }
         return bad;
     }
 
@@ -288,9 +294,7 @@ class MorphRun {
         if (counts[0] == 0) out += "  u[1] = 0;\n";
         if (counts[1] == 0) out += "  v[1] = 0;\n";
         for (std::size_t k = 0; k < 2; ++k) out += call_text(k, colored);
-        const double middle = 0.5 * (from_ + to_), scale = 2 * span / (to_ - from_);
-        out += fmt::format("  t = (x[{}] - ({}))*{};  -- from -10 to 10\n", n + 1, number_text(middle),
-                           number_text(scale));
+        out += time_text(n + 1);
         if (colored) out += blended_colors();
         out += options_.plain
                    ? fmt::format("  my_model = hfSpaceTimeBlend(g1, g2, t, 0, 1, 10, {}, {}, {}, {});\n}}\n",
@@ -301,6 +305,16 @@ class MorphRun {
                          number_text(b.a0), number_text(b.a1), number_text(b.a2), number_text(b.a3),
                          number_text(b.b0), number_text(b.c));
         return out;
+    }
+
+    /// The blend's time, from -10 to 10.
+    std::string time_text(std::size_t index) const {
+        const double middle = 0.5 * (from_ + to_), scale = 2 * span / (to_ - from_);
+        std::string time = fmt::format("x[{}]", index);
+        if (middle != 0)
+            time = fmt::format("({} {} {})", time, middle > 0 ? "-" : "+", number_text(std::abs(middle)));
+        if (scale != 1) time = fmt::format("{}*{}", number_text(scale), time);
+        return fmt::format("  t = {};\n", time);
     }
 
     std::string attribute_arrays() const {

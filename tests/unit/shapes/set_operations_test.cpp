@@ -160,6 +160,14 @@ TEST_CASE("gradients agree with differences, and are 1 and 1 at the corner") {
         CHECK(r.d[0] == 1);
         CHECK(r.d[1] == 1);
     }
+    // R_0^m is smooth there: the partials vanish
+    const Dual flat = meaning<Dual>(
+        Op::r0m_and, std::vector<Dual>{Dual::variable(0, 0), Dual::variable(0, 1), Dual(1)}, {});
+    CHECK(flat.value == 0);
+    CHECK(flat.d[0] == 0);
+    CHECK(flat.d[1] == 0);
+    CHECK(value(Op::r0m_or, 0, 0, 5e-7) == 0);
+    CHECK(value(Op::r0m_or, 1, 0, std::numeric_limits<double>::infinity()) == 2);
     // on the boundary of one solid within the other the value is that of a distance: partials 1 and 0
     for (const Op op : {Op::r_alpha_and, Op::rp_and}) {
         const Dual r = meaning<Dual>(

@@ -18,7 +18,7 @@ namespace rsystem_detail {
 template <class T>
 T saturated(T value, T like) {
     const T nought = zero<T>(), limit = math::constant<T>(math::r_limit);
-    const T least = math::constant<T>(0x1p-1022);
+    const T least = math::constant<T>(0x1p-1074);
     T r = math::select(math::less(limit, value), limit, value);
     r = math::select(math::less(r, -limit), -limit, r);
     r = math::select(math::both(math::less(nought, like), math::less_equal(r, nought)), least, r);
@@ -114,23 +114,31 @@ T r_alpha_or(T a, T b, T alpha) {
     return -r_alpha_and(-a, -b, alpha);
 }
 
-/// r_and(a, b) hypot(a, b)^m. Undefined for m < 0.
+/// The largest exponent that counts: beyond it a power of any other size than 1 is 0 or endless anyway.
+inline constexpr double r0m_limit = 1e6;
+
+/// r_and(a, b) hypot(a, b)^m, 0 where both are 0. Undefined for m < 0.
 template <class T>
 T r0m_and(T a, T b, T m) {
-    const T base = math::r_and(a, b);
+    const T base = math::r_and(a, b), size = math::hypot(a, b);
     // finite, so that 0 times it is 0
-    const T size = math::min(math::pow(math::hypot(a, b), m), math::constant<T>(0x1p1000));
-    const auto flat = math::equal(m, zero<T>());
-    const T value = math::select(flat, base, rsystem_detail::saturated(base * size, base));
+    const T power =
+        math::min(math::pow(size, math::min(m, math::constant<T>(r0m_limit))), math::constant<T>(0x1p1000));
+    // an exponent that counts as 0, as that of numerics.md rule 8, leaves 0^0 where both are 0
+    const auto plain = math::either(math::equal(m, zero<T>()),
+                                    math::both(math::equal(size, zero<T>()), math::is_nan(power)));
+    const T value = math::select(plain, base, rsystem_detail::saturated(base * power, base));
     const T result = math::select(math::less(m, zero<T>()), math::constant<T>(math::quiet_nan), value);
     return defined_with(result, a, b, m);
 }
 /// The sign is that of the base, whatever is lost on the way.
 inline Interval r0m_and(Interval a, Interval b, Interval m) {
     if (any_empty(a, b, m) || m.hi < 0.0) return Interval::empty();
-    const double limit = math::r_limit, least = 0x1p-1022, most = 0x1p1000;
+    const double limit = math::r_limit, least = 0x1p-1074, most = 0x1p1000;
     const Interval base = math::r_and(a, b);
-    const Interval power = math::pow(math::hypot(a, b), Interval(m.lo > 0.0 ? m.lo : 0.0, m.hi));
+    const Interval power =
+        math::pow(math::hypot(a, b), Interval(m.lo > 0.0 ? (m.lo < r0m_limit ? m.lo : r0m_limit) : 0.0,
+                                              m.hi < r0m_limit ? m.hi : r0m_limit));
     const Interval size =
         power.is_empty() ? Interval(0.0, most)
                          : Interval(power.lo < most ? power.lo : most, power.hi < most ? power.hi : most);
@@ -218,8 +226,8 @@ inline Interval rp_and(Interval a, Interval b, Interval p) {
     const Interval wide{
         math::next_down(range.lo - slack * (magnitude(Interval(a.lo)) + magnitude(Interval(b.lo)))),
         math::next_up(range.hi + slack * (magnitude(Interval(a.hi)) + magnitude(Interval(b.hi)))), undefined};
-    const double low = a.lo > 0.0 && b.lo > 0.0 && !(wide.lo > 0.0) ? 0x1p-1022 : wide.lo;
-    const double high = (a.hi < 0.0 || b.hi < 0.0) && !(wide.hi < 0.0) ? -0x1p-1022 : wide.hi;
+    const double low = a.lo > 0.0 && b.lo > 0.0 && !(wide.lo > 0.0) ? 0x1p-1074 : wide.lo;
+    const double high = (a.hi < 0.0 || b.hi < 0.0) && !(wide.hi < 0.0) ? -0x1p-1074 : wide.hi;
     return {low, high, undefined};
 }
 template <class T>
