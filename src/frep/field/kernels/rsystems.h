@@ -114,19 +114,19 @@ T r_alpha_or(T a, T b, T alpha) {
     return -r_alpha_and(-a, -b, alpha);
 }
 
-/// The largest exponent that counts: beyond it a power of any other size than 1 is 0 or endless anyway.
-inline constexpr double r0m_limit = 1e6;
+/// The largest exponent that counts: beyond it powers are 0, 1 or endless, and the norm is the larger
+/// operand.
+inline constexpr double exponent_limit = 1e6;
 
 /// r_and(a, b) hypot(a, b)^m, 0 where both are 0. Undefined for m < 0.
 template <class T>
 T r0m_and(T a, T b, T m) {
     const T base = math::r_and(a, b), size = math::hypot(a, b);
     // finite, so that 0 times it is 0
-    const T power =
-        math::min(math::pow(size, math::min(m, math::constant<T>(r0m_limit))), math::constant<T>(0x1p1000));
-    // an exponent that counts as 0, as that of numerics.md rule 8, leaves 0^0 where both are 0
-    const auto plain = math::either(math::equal(m, zero<T>()),
-                                    math::both(math::equal(size, zero<T>()), math::is_nan(power)));
+    const T power = math::min(math::pow(size, math::min(m, math::constant<T>(exponent_limit))),
+                              math::constant<T>(0x1p1000));
+    // 0^0 has no value; numbers near to 0 count as 0 there (numerics.md, rule 8)
+    const auto plain = math::either(math::equal(m, zero<T>()), math::is_nan(power));
     const T value = math::select(plain, base, rsystem_detail::saturated(base * power, base));
     const T result = math::select(math::less(m, zero<T>()), math::constant<T>(math::quiet_nan), value);
     return defined_with(result, a, b, m);
@@ -136,15 +136,15 @@ inline Interval r0m_and(Interval a, Interval b, Interval m) {
     if (any_empty(a, b, m) || m.hi < 0.0) return Interval::empty();
     const double limit = math::r_limit, least = 0x1p-1074, most = 0x1p1000;
     const Interval base = math::r_and(a, b);
-    const Interval power =
-        math::pow(math::hypot(a, b), Interval(m.lo > 0.0 ? (m.lo < r0m_limit ? m.lo : r0m_limit) : 0.0,
-                                              m.hi < r0m_limit ? m.hi : r0m_limit));
+    const Interval power = math::pow(
+        math::hypot(a, b), Interval(m.lo > 0.0 ? (m.lo < exponent_limit ? m.lo : exponent_limit) : 0.0,
+                                    m.hi < exponent_limit ? m.hi : exponent_limit));
     const Interval size =
         power.is_empty() ? Interval(0.0, most)
                          : Interval(power.lo < most ? power.lo : most, power.hi < most ? power.hi : most);
     const Interval product = base * size;
     double low = product.lo, high = product.hi;
-    if (!(m.lo > 0.0)) {  // m = 0 is the base itself
+    if (!(m.lo > 0.0) || power.maybe_undefined) {  // the base itself
         low = base.lo < low ? base.lo : low;
         high = base.hi > high ? base.hi : high;
     }
@@ -167,8 +167,9 @@ T r0m_or(T a, T b, T m) {
 /// p <= 1, where it is no norm with a tangent. Error <= 16 ulp of the larger operand where they have one
 /// sign.
 template <class T>
-T rp_and(T a, T b, T p) {
+T rp_and(T a, T b, T exponent) {
     using namespace rsystem_detail;
+    const T p = math::min(exponent, math::constant<T>(exponent_limit));
     T low, high;
     in_order(bounded(a), bounded(b), low, high);
     const T size_low = math::abs(low), size_high = math::abs(high);
@@ -222,10 +223,8 @@ inline Interval rp_and(Interval a, Interval b, Interval p) {
     const Interval range = rsystem_detail::increasing(
         [](double x, double y, double k) { return rp_and(x, y, k); }, a, b, least, p.hi, undefined);
     // rounding is relative to the operands, not to the result
-    const double slack = 0x1p-48;
-    const Interval wide{
-        math::next_down(range.lo - slack * (magnitude(Interval(a.lo)) + magnitude(Interval(b.lo)))),
-        math::next_up(range.hi + slack * (magnitude(Interval(a.hi)) + magnitude(Interval(b.hi)))), undefined};
+    const double slack = 0x1p-48 * (magnitude(a) + magnitude(b));
+    const Interval wide{math::next_down(range.lo - slack), math::next_up(range.hi + slack), undefined};
     const double low = a.lo > 0.0 && b.lo > 0.0 && !(wide.lo > 0.0) ? 0x1p-1074 : wide.lo;
     const double high = (a.hi < 0.0 || b.hi < 0.0) && !(wide.hi < 0.0) ? -0x1p-1074 : wide.hi;
     return {low, high, undefined};
