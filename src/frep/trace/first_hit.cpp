@@ -16,7 +16,7 @@ void FirstHit::trace(std::span<const Ray> rays, std::span<Hit> hits) {
     std::fill(hits.begin(), hits.end(), Hit{});
     if (!grid_.has_solid()) return;
     find_reaches(rays);
-    if (by_proof_)
+    if (how_ == HitSearch::proofs)
         search_.search(rays, reaches_, hits);
     else
         sample(rays, hits);
@@ -64,9 +64,10 @@ void FirstHit::sample(std::span<const Ray> rays, std::span<Hit> hits) {
 /// that found something are done.
 void FirstHit::sample_run(std::span<const Ray> rays, std::span<Hit> hits) {
     runs_.clear();
+    const double apart = grid_.step() / samples_a_cell;
+    const double step = how_ == HitSearch::close_samples ? std::min(apart, resolution_) : apart;
     for (const Walker& w : walkers_)
-        runs_.push_back({w.ray, w.run.begin, w.run.end,
-                         samples_within(w.run.begin, w.run.end, grid_.step() / samples_a_cell)});
+        runs_.push_back({w.ray, w.run.begin, w.run.end, samples_within(w.run.begin, w.run.end, step)});
     found_.clear();
     find_crossings(rays, field_, runs_, columns_, [&](const SampledRun& run, const Bracket& found) {
         found_.push_back(run.ray);

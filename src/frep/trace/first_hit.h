@@ -1,7 +1,9 @@
 // The first point of a solid along each of a batch of rays: by proof (front_search.h), within the lattice of
-// a DistanceGrid. Where intervals say nothing about the function (DistanceGrid::sampled) the rays walk
-// through the cells that may hold some of the solid and F is sampled half a cell apart; what is thinner may
-// then be missed. Tested by tests/unit/trace/first_hit_test.cpp.
+// a DistanceGrid. Where ranges of small boxes cost thousands of values (loops that depend on the point), the
+// rays walk through the cells that may hold some of the solid, by the lattice's own ranges, and F is sampled
+// at the resolution: nothing thicker is missed there either. Where intervals say nothing at all
+// (DistanceGrid::sampled) F is sampled half a cell apart; what is thinner may then be missed. Tested by
+// tests/unit/trace/first_hit_test.cpp.
 #pragma once
 
 #include <span>
@@ -13,13 +15,21 @@
 
 namespace frep::tracing {
 
+/// How the first point is found: by proof, at samples one resolution apart in cells that are not proved
+/// empty, or at samples half a cell apart.
+enum class HitSearch : unsigned char { proofs, close_samples, samples };
+
 class FirstHit {
   public:
     /// `spacing`: about the distance between neighbouring rays; `resolution`: the solid is found where it is
-    /// that thick along the ray, or thicker; both in model units, > 0. `by_proof`: false for samples alone.
+    /// that thick along the ray, or thicker; both in model units, > 0.
     FirstHit(const DistanceGrid& grid, SampledField& field, double spacing, double resolution,
-             bool by_proof = true)
-        : grid_(grid), field_(field), search_(field, spacing, resolution), by_proof_(by_proof) {}
+             HitSearch how = HitSearch::proofs)
+        : grid_(grid),
+          field_(field),
+          search_(field, spacing, resolution),
+          how_(how),
+          resolution_(resolution) {}
 
     /// hits[i] for rays[i]. Rays near in number should be near in space (FrontSearch::search).
     void trace(std::span<const Ray> rays, std::span<Hit> hits);
@@ -29,7 +39,7 @@ class FirstHit {
     void sample(std::span<const Ray> rays, std::span<Hit> hits);
     void sample_run(std::span<const Ray> rays, std::span<Hit> hits);
 
-    /// A ray that walks through the cells of the lattice, in sampled scenes.
+    /// A ray that walks through the cells of the lattice, where samples look for the solid.
     struct Walker {
         std::size_t ray = 0;
         CellWalk walk;
@@ -39,7 +49,8 @@ class FirstHit {
     const DistanceGrid& grid_;
     SampledField& field_;
     FrontSearch search_;
-    bool by_proof_;
+    HitSearch how_;
+    double resolution_;
     std::vector<Reach> reaches_;
     std::vector<Walker> walkers_;
     std::vector<SampledRun> runs_;

@@ -94,8 +94,8 @@ std::vector<Vec3> framed_points(const DistanceGrid& grid, const PictureOptions& 
 }  // namespace
 
 struct Painter::Worker {
-    Worker(const DistanceGrid& grid, FieldPool& fields, double pixel, bool by_proof)
-        : field(fields.borrow()), first_hit(grid, *field, pixel, thinnest * pixel, by_proof) {}
+    Worker(const DistanceGrid& grid, FieldPool& fields, double pixel, HitSearch how)
+        : field(fields.borrow()), first_hit(grid, *field, pixel, thinnest * pixel, how) {}
     FieldPool::Lease field;
     FirstHit first_hit;
     std::vector<Ray> rays;
@@ -109,10 +109,10 @@ struct Painter::Worker {
 };
 
 Painter::Painter(const DistanceGrid& grid, FieldPool& fields, const SceneOptions& scene,
-                 const PictureOptions& options, bool by_proof)
+                 const PictureOptions& options, HitSearch how)
     : grid_(grid),
       fields_(fields),
-      by_proof_(by_proof),
+      how_(how),
       options_(options),
       material_(material_of(options)),
       section_material_{"section", "", {options.section_color, 0, 0.8, 0}},
@@ -140,7 +140,7 @@ Result<Image> Painter::paint(const Job& job) {
     const int across = (options_.width + tile - 1) / tile, down = (options_.height + tile - 1) / tile;
     parallel_for(job, static_cast<std::size_t>(across * down), [&](std::size_t task) {
         const int x0 = static_cast<int>(task) % across * tile, y0 = static_cast<int>(task) / across * tile;
-        Worker worker(grid_, fields_, camera_.pixel_size(), by_proof_);
+        Worker worker(grid_, fields_, camera_.pixel_size(), how_);
         // In Morton order: any quarter of the tile is a square of neighbours.
         for (unsigned n = 0; n < unsigned{tile * tile}; ++n) {
             unsigned x = 0, y = 0;
@@ -338,7 +338,7 @@ void Painter::smooth_edges(const Job& job) {
     parallel_for(job, tasks, [&](std::size_t task) {
         const std::size_t first = task * edge_pixels_a_task;
         const std::size_t last = std::min(first + edge_pixels_a_task, list.size());
-        Worker worker(grid_, fields_, camera_.pixel_size(), by_proof_);
+        Worker worker(grid_, fields_, camera_.pixel_size(), how_);
         const auto width = static_cast<std::uint32_t>(options_.width);
         for (std::size_t e = first; e < last; ++e)
             for (const Vec2& rook : rooks)

@@ -26,9 +26,9 @@ struct Sample {
 
 class Painter {
   public:
-    /// `by_proof`: see FirstHit.
+    /// `how`: see FirstHit.
     Painter(const DistanceGrid& grid, FieldPool& fields, const SceneOptions& scene,
-            const PictureOptions& options, bool by_proof);
+            const PictureOptions& options, HitSearch how);
 
     /// The picture. Errors: cancelled.
     Result<Image> paint(const Job& job);
@@ -51,7 +51,7 @@ class Painter {
 
     const DistanceGrid& grid_;
     FieldPool& fields_;
-    bool by_proof_;
+    HitSearch how_;
     const PictureOptions& options_;
     const NamedMaterial& material_;
     NamedMaterial section_material_;

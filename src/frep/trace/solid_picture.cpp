@@ -48,6 +48,14 @@ Result<Box3> clipped(const SceneOptions& options) {
     return box;
 }
 
+tracing::HitSearch search_of(const SampledField& field, PictureQuality quality, bool is_undecided) {
+    using tracing::HitSearch;
+    if (is_undecided) return HitSearch::samples;
+    if (!field.has_dear_ranges()) return HitSearch::proofs;
+    if (quality == PictureQuality::draft) return HitSearch::samples;
+    return field.can_be_narrowed() ? HitSearch::proofs : HitSearch::close_samples;
+}
+
 Status check(const PictureOptions& options) {
     constexpr int most = PictureOptions::most_side;
     if (options.width < 1 || options.height < 1 || options.width > most || options.height > most)
@@ -76,7 +84,7 @@ struct SolidScene::Parts {
     std::unique_ptr<SampledField> field;
     std::unique_ptr<FieldPool> pool;
     tracing::DistanceGrid grid;
-    bool by_proof = false;
+    tracing::HitSearch how = tracing::HitSearch::samples;
 };
 
 SolidScene::SolidScene(std::unique_ptr<Parts> parts) : parts_(std::move(parts)) {}
@@ -93,18 +101,16 @@ Result<SolidScene> SolidScene::make(const SampledField& field, const SceneOption
     auto grid = tracing::DistanceGrid::make(*parts->pool, *clip, cells_of(options), job);
     if (!grid) return grid.error();
     parts->grid = std::move(*grid);
-    const bool wanted = options.quality == PictureQuality::high || !parts->field->has_dear_ranges() ||
-                        (options.quality == PictureQuality::normal && parts->field->can_be_narrowed());
-    parts->by_proof = wanted && !parts->grid.sampled();
+    parts->how = search_of(*parts->field, options.quality, parts->grid.sampled());
     return SolidScene(std::move(parts));
 }
 
 bool SolidScene::has_solid() const { return parts_->grid.has_solid(); }
-bool SolidScene::sampled() const { return !parts_->by_proof; }
+bool SolidScene::sampled() const { return parts_->how == tracing::HitSearch::samples; }
 
 Result<Image> SolidScene::picture(const PictureOptions& options, const Job& job) const {
     if (const Status status = check(options); !status) return status.error();
-    tracing::Painter painter(parts_->grid, *parts_->pool, parts_->options, options, parts_->by_proof);
+    tracing::Painter painter(parts_->grid, *parts_->pool, parts_->options, options, parts_->how);
     return painter.paint(job);
 }
 

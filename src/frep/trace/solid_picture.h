@@ -67,10 +67,9 @@ class SolidScene {
 
     /// False when there is surely nothing in the box.
     bool has_solid() const;
-    /// True when intervals say nothing about the function, or take too long for the quality: loops that
-    /// depend on the point are proved by PictureQuality::high alone (SampledField::can_be_narrowed), dear
-    /// ranges from normal quality on (has_dear_ranges). Samples then find the surface instead of proofs:
-    /// details below a cell may be missed.
+    /// True when intervals say nothing about the function, or in a draft take too long
+    /// (SampledField::has_dear_ranges): samples half a cell apart find the surface then, and details below a
+    /// cell may be missed.
     bool sampled() const;
 
     /// A picture of the scene. Errors: invalid_argument for a size or an angle out of range, cancelled.

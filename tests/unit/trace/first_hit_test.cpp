@@ -107,6 +107,26 @@ Expression many_triangles(Expression x, Expression y, Expression z, int count) {
     return {graph, graph.make_block(Op::conv_triangle, point, data)};
 }
 
+TEST_CASE("close samples find what is as thick as the resolution, samples half a cell apart do not") {
+    const auto plate = solid([](auto, auto, auto z) { return 0.001 - abs(z - 0.737); });
+    FieldPool pool(*plate);
+    const auto grid = DistanceGrid::make(pool, Box3::cube(1), 64, {});
+    REQUIRE(grid);
+    REQUIRE(!grid->sampled());
+    const FieldPool::Lease lease = pool.borrow();
+    const auto rays = rays_down(0.9, 30);
+    std::vector<Hit> close(rays.size()), wide(rays.size());
+    FirstHit(*grid, *lease, 0.01, 1e-3, HitSearch::close_samples).trace(rays, close);
+    FirstHit(*grid, *lease, 0.01, 1e-3, HitSearch::samples).trace(rays, wide);
+    std::size_t missed = 0;
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+        REQUIRE(close[i].is_hit());
+        CHECK(std::fabs(close[i].t - (5 - 0.738)) < 1e-6);
+        missed += wide[i].is_hit() ? 0 : 1;
+    }
+    CHECK(missed > 0);
+}
+
 TEST_CASE("a thin plate beside sums and noise is found as well") {
     // the plate is a fifteenth of a cell thick
     const auto plate_of = [](auto z) { return 0.001 - abs(z - 0.737); };
@@ -200,8 +220,8 @@ TEST_CASE("samples alone find what is thicker than half a cell") {
     REQUIRE(grid);
     const FieldPool::Lease lease = pool.borrow();
     std::vector<Hit> proved(rays.size()), sampled(rays.size());
-    FirstHit(*grid, *lease, 0.01, 1e-3, true).trace(rays, proved);
-    FirstHit(*grid, *lease, 0.01, 1e-3, false).trace(rays, sampled);
+    FirstHit(*grid, *lease, 0.01, 1e-3).trace(rays, proved);
+    FirstHit(*grid, *lease, 0.01, 1e-3, HitSearch::samples).trace(rays, sampled);
     for (std::size_t i = 0; i < rays.size(); ++i) {
         const Vec3 o = rays[i].origin;
         if (o.x * o.x + o.y * o.y > 0.98 && o.x * o.x + o.y * o.y < 1) continue;  // a grazed rim
