@@ -425,8 +425,10 @@ void try_all(const std::vector<Case>& cases) {
         const std::string name = c.name;
         CAPTURE(name);
         REQUIRE_FALSE(c.right.empty());
-        for (const auto& [r_functions, tolerance] :
+        for (const std::pair<bool, double>& trial :
              {std::pair(false, 0.0), {false, 1e-3}, {false, 0.02}, {true, 0.0}, {true, 0.02}}) {
+            const bool r_functions = trial.first;
+            const double tolerance = trial.second;
             CAPTURE(r_functions);
             CAPTURE(tolerance);
             by_r_functions = r_functions;
