@@ -2,7 +2,6 @@
 // Finished frames are kept in a folder until the last one is done, so that a run can be interrupted. Tested
 // by tests/cli/animate.txt.
 #include <algorithm>
-#include <cmath>
 #include <numeric>
 
 #include <fmt/format.h>
@@ -42,7 +41,7 @@ class AnimateRun {
         if (flat_axis_)
             if (const auto code = refuse_flat(options_.look, prepared_)) return *code;
         if (!flat_axis_) take_wishes(options_.look, prepared_, plan_.look, finish_);
-        values_ = evenly_spaced(plan_.frames);
+        values_ = values_of(plan_.frames);
         if (const Status status = find_box(); !status) return fail(status.error());
         if (const int code = measure()) return code;
         auto store = FrameStore::open(*options_.look.output, key());
@@ -61,13 +60,9 @@ class AnimateRun {
   private:
     /// The values of the frames; all 0 where nothing but the camera moves. A turn does not come back to its
     /// first frame.
-    std::vector<double> evenly_spaced(int count) const {
-        std::vector<double> out(static_cast<std::size_t>(count), 0);
-        if (!plan_.along) return out;
-        for (int i = 0; i < count; ++i)
-            out[static_cast<std::size_t>(i)] =
-                plan_.along->from + (plan_.along->to - plan_.along->from) * i / (count - 1);
-        return out;
+    std::vector<double> values_of(int count) const {
+        if (plan_.along) return evenly_spaced(*plan_.along, count);
+        return std::vector<double>(static_cast<std::size_t>(count), 0);
     }
 
     /// One box for all frames: the stated one, that of the annotation, or the hull of those of some frames.
@@ -102,8 +97,8 @@ class AnimateRun {
         ProgressBar bar("measuring");
         job_.on_progress = [&bar](double share) { bar.update(share); };
         if (options_.even) {
-            const auto fine = measure_frames(model_, evenly_spaced(fine_steps * plan_.frames + 1),
-                                             measured_box_, plan_.look.iso, cells, job_);
+            const auto fine = measure_frames(model_, values_of(fine_steps * plan_.frames + 1), measured_box_,
+                                             plan_.look.iso, cells, job_);
             if (!fine) return fail(fine.error());
             values_ = even_values(*fine, plan_.frames);
         }

@@ -27,10 +27,8 @@ Status check_output(const AnimateOptionTexts& options, AnimatePlan& plan) {
     if (const Status status = check_folder(path); !status) return status;
     if (options.report)
         if (const Status status = check_folder(*options.report); !status) return status;
-    if (plan.kind == MovieKind::mp4 && !has_ffmpeg())
-        return Error{ErrorKind::io,
-                     "an .mp4 needs the program ffmpeg, which is not installed (apt-get install "
-                     "ffmpeg); .gif and .apng need nothing"};
+    if (plan.kind == MovieKind::mp4)
+        if (const auto program = find_ffmpeg(); !program) return program.error();
     return {};
 }
 

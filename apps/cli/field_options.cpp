@@ -81,11 +81,7 @@ Status check_output(const FieldOptionTexts& options) {
     const std::string extension = lower_case(name.extension().string());
     if (extension != ".png")
         return usage(fmt::format("-o: '{}' is not a .png file, the format of pictures", path));
-    std::error_code error;
-    if (!name.parent_path().empty() && !std::filesystem::is_directory(name.parent_path(), error))
-        return Error{ErrorKind::io, fmt::format("cannot write '{}': there is no folder '{}'", path,
-                                                name.parent_path().string())};
-    return {};
+    return check_folder(path);
 }
 
 }  // namespace

@@ -56,15 +56,6 @@ Result<MeshTarget> find_target(const MeshOptions& options) {
     return usage(fmt::format("'{}' is not a format that this verb writes: {}", extension, format_names));
 }
 
-/// The folder of an output file must be there before the work begins.
-Status check_folder(const std::string& path) {
-    const std::filesystem::path folder = std::filesystem::path(path).parent_path();
-    std::error_code error;
-    if (path == "-" || folder.empty() || std::filesystem::is_directory(folder, error)) return {};
-    return Error{ErrorKind::io,
-                 fmt::format("cannot write '{}': there is no folder '{}'", path, folder.string())};
-}
-
 Status plan_outputs(const MeshOptions& options, MeshPlan& plan) {
     plan.report_on_stdout = options.json || options.report.value_or("") == "-";
     plan.print_check = options.print_check || options.overhang || options.min_wall;

@@ -2,7 +2,6 @@
 // readable HyperFun file. Tested by tests/cli/morph.txt.
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 
 #include <fmt/format.h>
 
@@ -162,12 +161,10 @@ class MorphRun {
             return Error{ErrorKind::invalid_model, "the two models cannot be put into one file"};
         }
         prepared.lowered = std::move(*lowered);
-        auto moving = MovingModel::make(prepared, Along{fmt::format("x{}", coordinates_ + 1), from_, to_});
+        const Along along{fmt::format("x{}", coordinates_ + 1), from_, to_};
+        auto moving = MovingModel::make(prepared, along);
         if (!moving) return moving.error();
-        std::vector<double> times;
-        for (int i = 0; i < trial_frames; ++i)
-            times.push_back(from_ + (to_ - from_) * i / (trial_frames - 1));
-        const auto frames = measure_frames(*moving, times, box, 0,
+        const auto frames = measure_frames(*moving, evenly_spaced(along, trial_frames), box, 0,
                                            coordinates_ == 2 ? trial_cells_flat : trial_cells_solid, job_);
         if (!frames) return frames.error();
         const int most = std::max({1, frames->front().components, frames->back().components});

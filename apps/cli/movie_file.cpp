@@ -37,6 +37,17 @@ Result<GifPalette> palette_of(const FrameStore& store, const std::vector<int>& s
     return gif_palette(examples);
 }
 
+/// The frames, one after the other, into a writer of the library.
+template <class Writer>
+Status add_frames(const FrameStore& store, const std::vector<int>& shown, Writer& writer) {
+    for (const int frame : shown) {
+        const auto image = store.get(frame);
+        if (!image) return image.error();
+        if (const Status status = writer.add(*image); !status) return status;
+    }
+    return {};
+}
+
 Result<std::string> as_gif(const FrameStore& store, const std::vector<int>& shown,
                            const MovieOptions& options) {
     auto palette = palette_of(store, shown);
@@ -48,18 +59,8 @@ Result<std::string> as_gif(const FrameStore& store, const std::vector<int>& show
     gif.loops = options.loops;
     auto writer = GifWriter::make(first->width, first->height, std::move(*palette), gif);
     if (!writer) return writer.error();
-    for (const int frame : shown) {
-        const auto image = store.get(frame);
-        if (!image) return image.error();
-        if (const Status status = writer->add(*image); !status) return status.error();
-    }
+    if (const Status status = add_frames(store, shown, *writer); !status) return status.error();
     return writer->finish();
-}
-
-bool is_opaque(const Image& image) {
-    for (std::size_t i = 3; i < image.pixels.size(); i += 4)
-        if (image.pixels[i] != 255) return false;
-    return true;
 }
 
 Result<std::string> as_apng(const FrameStore& store, const std::vector<int>& shown,
@@ -78,11 +79,7 @@ Result<std::string> as_apng(const FrameStore& store, const std::vector<int>& sho
     }
     auto writer = ApngWriter::make(first.width, first.height, apng);
     if (!writer) return writer.error();
-    for (const int frame : shown) {
-        const auto image = store.get(frame);
-        if (!image) return image.error();
-        if (const Status status = writer->add(*image); !status) return status.error();
-    }
+    if (const Status status = add_frames(store, shown, *writer); !status) return status.error();
     return writer->finish();
 }
 
@@ -116,11 +113,8 @@ Status run_program(const std::vector<std::string>& arguments) {
 /// ffmpeg reads numbered files; where frames are shown in another order, links are made.
 Status write_mp4(const FrameStore& store, const std::vector<int>& shown, const std::string& path,
                  const MovieOptions& options) {
-    const std::string program = find_program("ffmpeg");
-    if (program.empty())
-        return io_error(
-            "an .mp4 needs the program ffmpeg, which is not installed (apt-get install ffmpeg); "
-            ".gif and .apng need nothing");
+    const auto program = find_ffmpeg();
+    if (!program) return program.error();
     const fs::path order = fs::path(store.folder()) / "order";
     std::error_code error;
     fs::remove_all(order, error);
@@ -130,7 +124,7 @@ Status write_mp4(const FrameStore& store, const std::vector<int>& shown, const s
         fs::create_symlink(fs::absolute(store.path(shown[i]), error), order / fmt::format("{:06}.png", i),
                            error);
     const std::string made = store.folder() + "/movie.mp4";
-    const Status status = run_program({program,
+    const Status status = run_program({*program,
                                        "-nostdin",
                                        "-loglevel",
                                        "error",
@@ -171,7 +165,14 @@ std::optional<MovieKind> movie_kind(const std::string& path) {
     return std::nullopt;
 }
 
-bool has_ffmpeg() { return !find_program("ffmpeg").empty(); }
+Result<std::string> find_ffmpeg() {
+    std::string program = find_program("ffmpeg");
+    if (program.empty())
+        return io_error(
+            "an .mp4 needs the program ffmpeg, which is not installed (apt-get install ffmpeg); "
+            ".gif and .apng need nothing");
+    return program;
+}
 
 Status write_movie(const FrameStore& store, const std::vector<int>& shown, const std::string& path,
                    MovieKind kind, const MovieOptions& options) {

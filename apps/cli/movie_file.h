@@ -25,7 +25,7 @@ struct MovieOptions {
 Status write_movie(const FrameStore& store, const std::vector<int>& shown, const std::string& path,
                    MovieKind kind, const MovieOptions& options);
 
-/// Whether the program ffmpeg can be found.
-bool has_ffmpeg();
+/// The path of the program ffmpeg. Errors: io when there is none.
+Result<std::string> find_ffmpeg();
 
 }  // namespace frep::cli

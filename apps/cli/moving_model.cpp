@@ -46,6 +46,12 @@ Result<Along> parse_along(std::string_view text) {
     return Along{std::string(text.substr(0, equals)), *from, *to};
 }
 
+std::vector<double> evenly_spaced(const Along& along, int count) {
+    std::vector<double> out;
+    for (int i = 0; i < count; ++i) out.push_back(along.from + (along.to - along.from) * i / (count - 1));
+    return out;
+}
+
 Result<MovingModel> MovingModel::make(PreparedModel& prepared, const std::optional<Along>& along) {
     MovingModel out(prepared);
     if (!along) return out;

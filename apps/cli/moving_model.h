@@ -16,6 +16,8 @@ struct Along {
     double from = 0, to = 0;
 };
 Result<Along> parse_along(std::string_view text);
+/// `count` >= 2 values from the beginning to the end.
+std::vector<double> evenly_spaced(const Along& along, int count);
 
 class MovingModel {
   public:

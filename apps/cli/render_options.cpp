@@ -181,14 +181,6 @@ Status check_output(const RenderOptionTexts& options, const RenderPlan& plan) {
 
 }  // namespace
 
-Status check_folder(const std::string& path) {
-    const std::filesystem::path folder = std::filesystem::path(path).parent_path();
-    std::error_code error;
-    if (folder.empty() || std::filesystem::is_directory(folder, error)) return {};
-    return Error{ErrorKind::io,
-                 fmt::format("cannot write '{}': there is no folder '{}'", path, folder.string())};
-}
-
 Result<Color> parse_color(std::string_view text) {
     const auto digit = [](char c) {
         if (c >= '0' && c <= '9') return c - '0';

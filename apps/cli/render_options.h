@@ -35,8 +35,6 @@ struct RenderPlan {
 Result<RenderPlan> plan_render(const RenderOptionTexts& options);
 /// The same without the output and the turntable.
 Result<RenderPlan> plan_look(const RenderOptionTexts& options);
-/// Errors: io for a file whose folder is not there.
-Status check_folder(const std::string& path);
 
 /// Fills in what the model itself wishes (`--@ material`, `--@ view`, `--@ color`, its colors) where the
 /// command line is silent, with a warning for wishes that mean nothing. `finish` keeps a material that is

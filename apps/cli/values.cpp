@@ -5,6 +5,7 @@
 #include <charconv>
 #include <cmath>
 #include <cstdlib>
+#include <filesystem>
 #include <string>
 
 #include <fmt/format.h>
@@ -165,6 +166,14 @@ std::vector<std::string_view> split_at_commas(std::string_view text) {
         if (comma == std::string_view::npos) return pieces;
         text.remove_prefix(comma + 1);
     }
+}
+
+Status check_folder(const std::string& path) {
+    const std::filesystem::path folder = std::filesystem::path(path).parent_path();
+    std::error_code error;
+    if (path == "-" || folder.empty() || std::filesystem::is_directory(folder, error)) return {};
+    return Error{ErrorKind::io,
+                 fmt::format("cannot write '{}': there is no folder '{}'", path, folder.string())};
 }
 
 }  // namespace frep::cli

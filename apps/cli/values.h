@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -38,6 +39,9 @@ struct StatedBounds {
 };
 /// `v` (the cube of half side v), `min,max` (all axes), `ax,bx,ay,by` or `ax,bx,ay,by,az,bz`.
 Result<StatedBounds> parse_bounds(std::string_view text);
+
+/// The folder of an output file must be there before the work begins; `-` needs none. Errors: io.
+Status check_folder(const std::string& path);
 
 /// The pieces of `text` between commas. They point into `text`, so a string that dies at once is refused.
 std::vector<std::string_view> split_at_commas(std::string_view text);

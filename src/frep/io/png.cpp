@@ -154,14 +154,14 @@ Status check_input(const Image& image, const PngOptions& options) {
     return {};
 }
 
+}  // namespace
+
 bool is_opaque(const Image& image) {
     for (std::size_t i = 3; i < image.pixels.size(); i += 4) {
         if (image.pixels[i] != 255) return false;
     }
     return true;
 }
-
-}  // namespace
 
 Result<std::string> encode_png(const Image& image, const PngOptions& options) {
     if (const Status status = check_input(image, options); !status) return status.error();

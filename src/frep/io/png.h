@@ -22,6 +22,9 @@ struct PngOptions {
     int compression = 6;
 };
 
+/// True when no pixel lets anything through: alpha 255 everywhere.
+bool is_opaque(const Image& image);
+
 /// The picture as a PNG file's bytes: 8-bit sRGB, RGB when every pixel is opaque, else RGBA. Errors:
 /// invalid_argument for a picture without pixels, one whose array has not width * height * 4 bytes, a side
 /// beyond 1e6 (libpng's limit), or an option out of range; over_limit when memory does not suffice.

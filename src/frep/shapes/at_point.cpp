@@ -2,7 +2,6 @@
 #include "frep/shapes/at_point.h"
 
 #include <algorithm>
-#include <unordered_map>
 
 #include "frep/field/meaning.h"
 
@@ -10,14 +9,20 @@ namespace frep::shapes {
 
 namespace {
 
+/// The number of the item of x that is this node.
+std::optional<std::size_t> item_of(Array x, NodeId id) {
+    for (std::size_t i = 0; i < x.size(); ++i)
+        if (x[i].id() == id) return i;
+    return std::nullopt;
+}
+
 /// The nodes below `f` down to the items of x, which stand for themselves.
 std::vector<bool> nodes_above(const Graph& graph, NodeId f, Array x) {
     std::vector<bool> needed(f + 1, false);
     needed[f] = true;
     for (NodeId id = f + 1; id-- > 0;) {
         if (!needed[id]) continue;
-        if (std::any_of(x.begin(), x.end(), [&](const Expression& item) { return item.id() == id; }))
-            continue;
+        if (item_of(x, id)) continue;
         for (const NodeId argument : graph.arguments(id)) needed[argument] = true;
     }
     return needed;
@@ -48,9 +53,8 @@ std::optional<Expression> at_point(Build& build, Expression f, Array x, Array p)
     std::vector<std::uint32_t> block_names;
     for (NodeId id = 0; id <= f.id(); ++id) {
         if (!needed[id]) continue;
-        const auto item = std::find_if(x.begin(), x.end(), [&](const Expression& e) { return e.id() == id; });
-        if (item != x.end()) {
-            made[id] = p[static_cast<std::size_t>(item - x.begin())].id();
+        if (const auto item = item_of(x, id)) {
+            made[id] = p[*item].id();
             continue;
         }
         if (moves(graph.node(id))) return std::nullopt;
@@ -71,10 +75,8 @@ std::optional<LocalValue> value_at(Build& build, Expression f, Array x, const Ve
     std::vector<Dual> arguments;
     for (NodeId id = 0; id <= f.id(); ++id) {
         if (!needed[id]) continue;
-        const auto item = std::find_if(x.begin(), x.end(), [&](const Expression& e) { return e.id() == id; });
-        if (item != x.end()) {
-            const auto axis = static_cast<std::size_t>(item - x.begin());
-            values[id] = axis < 3 ? Dual::variable(at[axis], static_cast<int>(axis)) : Dual(0.0);
+        if (const auto item = item_of(x, id)) {
+            values[id] = *item < 3 ? Dual::variable(at[*item], static_cast<int>(*item)) : Dual(0.0);
             continue;
         }
         const Node& node = graph.node(id);
