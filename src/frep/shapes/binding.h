@@ -99,6 +99,7 @@ Rows transform_rows();
 Rows set_operation_rows();
 Rows blend_rows();
 Rows control_point_rows();
+Rows offset_rows();
 Rows metamorphosis_rows();
 Rows polygon_rows();
 Rows distance_rows();

@@ -70,6 +70,7 @@ struct Table {
         add("Set operations", set_operation_rows());
         add("Blends", blend_rows());
         add("Blends by points", control_point_rows());
+        add("Offsets", offset_rows());
         add("Metamorphosis", metamorphosis_rows());
         add("Polygons", polygon_rows());
         add("Distance", distance_rows());
