@@ -16,11 +16,13 @@ std::optional<std::size_t> item_of(Array x, NodeId id) {
     return std::nullopt;
 }
 
-/// The nodes below `f` down to the items of x, which stand for themselves.
-std::vector<bool> nodes_above(const Graph& graph, NodeId f, Array x) {
-    std::vector<bool> needed(f + 1, false);
-    needed[f] = true;
-    for (NodeId id = f + 1; id-- > 0;) {
+/// The nodes below `roots` down to the items of x, which stand for themselves; by NodeId.
+std::vector<bool> nodes_above(const Graph& graph, Array roots, Array x) {
+    NodeId last = 0;
+    for (const Expression& root : roots) last = std::max(last, root.id());
+    std::vector<bool> needed(last + 1, false);
+    for (const Expression& root : roots) needed[root.id()] = true;
+    for (NodeId id = last + 1; id-- > 0;) {
         if (!needed[id]) continue;
         if (item_of(x, id)) continue;
         for (const NodeId argument : graph.arguments(id)) needed[argument] = true;
@@ -47,7 +49,7 @@ bool moves(const Node& node) {
 std::optional<Expression> at_point(Build& build, Expression f, Array x, Array p) {
     Graph& graph = build.graph;
     if (x.size() != p.size()) return std::nullopt;
-    const std::vector<bool> needed = nodes_above(graph, f.id(), x);
+    const std::vector<bool> needed = nodes_above(graph, Array(&f, 1), x);
     std::vector<NodeId> made(f.id() + 1, 0);
     std::vector<NodeId> arguments;
     std::vector<std::uint32_t> block_names;
@@ -66,14 +68,14 @@ std::optional<Expression> at_point(Build& build, Expression f, Array x, Array p)
     return Expression(graph, made[f.id()]);
 }
 
-std::optional<LocalValue> value_at(Build& build, Expression f, Array x, const Vec3& p) {
+std::optional<std::vector<LocalValue>> values_at(Build& build, Array functions, Array x, const Vec3& p) {
     using Dual = math::Dual<double>;
     const Graph& graph = build.graph;
-    const std::vector<bool> needed = nodes_above(graph, f.id(), x);
+    const std::vector<bool> needed = nodes_above(graph, functions, x);
     const std::array<double, 3> at{p.x, p.y, p.z};
-    std::vector<Dual> values(f.id() + 1);
+    std::vector<Dual> values(needed.size());
     std::vector<Dual> arguments;
-    for (NodeId id = 0; id <= f.id(); ++id) {
+    for (NodeId id = 0; id < needed.size(); ++id) {
         if (!needed[id]) continue;
         if (const auto item = item_of(x, id)) {
             values[id] = *item < 3 ? Dual::variable(at[*item], static_cast<int>(*item)) : Dual(0.0);
@@ -94,9 +96,18 @@ std::optional<LocalValue> value_at(Build& build, Expression f, Array x, const Ve
             info(node.op).kind == OpKind::block ? graph.block_of(id) : std::span<const double>();
         values[id] = meaning<Dual>(node.op, arguments, block);
     }
-    const Dual& root = values[f.id()];
-    if (root.value != root.value) return std::nullopt;
-    return LocalValue{root.value, {root.d[0], root.d[1], root.d[2]}};
+    std::vector<LocalValue> out;
+    for (const Expression& f : functions) {
+        const Dual& root = values[f.id()];
+        if (root.value != root.value) return std::nullopt;
+        out.push_back({root.value, {root.d[0], root.d[1], root.d[2]}});
+    }
+    return out;
+}
+
+std::optional<LocalValue> value_at(Build& build, Expression f, Array x, const Vec3& p) {
+    const auto values = values_at(build, Array(&f, 1), x, p);
+    return values ? std::optional(values->front()) : std::nullopt;
 }
 
 }  // namespace frep::shapes

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <optional>
+#include <vector>
 
 #include "frep/math/vec.h"
 #include "frep/shapes/library.h"
@@ -24,5 +25,8 @@ struct LocalValue {
 
 /// The same in numbers, for the present parameters. Nothing as of at_point(), and where f is undefined.
 std::optional<LocalValue> value_at(Build& build, Expression f, Array x, const Vec3& p);
+
+/// The same for several functions in one pass over the graph; nothing when one of them has no value.
+std::optional<std::vector<LocalValue>> values_at(Build& build, Array functions, Array x, const Vec3& p);
 
 }  // namespace frep::shapes

@@ -1,6 +1,7 @@
 // Blends by control points, fillets, chamfers and their rows. See control_points.h.
 #include "frep/shapes/control_points.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -18,6 +19,8 @@ constexpr double reached = 1e-12;
 /// Points nearer to the edge than this share of their distance count as on the edge.
 constexpr double on_edge = 1e-9;
 constexpr int most_steps = 60;
+/// Folds of more operands are blended as a whole.
+constexpr std::size_t most_operands = 100'000;
 
 std::optional<Vec3> point_of(Build& build, Array p) {
     const auto x = known(build, p[0]), y = known(build, p[1]), z = known(build, p[2]);
@@ -49,6 +52,58 @@ Projected project(Build& build, Expression f, Array x, const Vec3& p, double rea
     return out;
 }
 
+/// One surface of a blend: of a fold of the blend's own set operation only the operand that has the surface
+/// at the control point, and the others. A fold has to stay out of the blend: each of its operands bends the
+/// values that the blend reads, however far away it is.
+struct Local {
+    Expression part;
+    std::vector<Expression> others;
+};
+
+/// The operands of the fold of `op` that f is, parts of the same fold opened; f itself when it is none.
+std::vector<Expression> operands(Expression f, Op op) {
+    const Graph& graph = f.graph();
+    std::vector<Expression> open{f}, out;
+    while (!open.empty()) {
+        const Expression e = open.back();
+        open.pop_back();
+        if (graph.node(e.id()).op != op) {
+            out.push_back(e);
+            continue;
+        }
+        const auto arguments = graph.arguments(e.id());
+        for (std::size_t i = arguments.size(); i-- > 0;) open.emplace_back(f.graph(), arguments[i]);
+        if (out.size() + open.size() > most_operands) return {f};
+    }
+    return out;
+}
+
+/// `on_surface`: the control point, on f = 0.
+Local local_part(Build& build, Expression f, Array x, const Vec3& on_surface, bool unites) {
+    const Op op = build.graph.node(f.id()).op;
+    const bool folds = unites ? op == Op::r_or || op == Op::max : op == Op::r_and || op == Op::min;
+    Local out{f, {}};
+    if (!folds) return out;
+    std::vector<Expression> all = operands(f, op);
+    const auto values = values_at(build, all, x, on_surface);
+    if (!values) return out;
+    std::size_t nearest = 0;
+    for (std::size_t i = 1; i < all.size(); ++i)
+        if (std::abs((*values)[i].value) < std::abs((*values)[nearest].value)) nearest = i;
+    out.part = all[nearest];
+    std::erase(all, out.part);
+    out.others = std::move(all);
+    return out;
+}
+
+/// The system whose union or intersection `f` is a fold of; r0 where it is none.
+SetSystem system_of(Expression f) {
+    const Op op = f.graph().node(f.id()).op;
+    SetSystem system;
+    if (op == Op::max || op == Op::min) system.kind = SetSystem::Kind::min_max;
+    return system;
+}
+
 }  // namespace
 
 template <Op op>
@@ -64,15 +119,26 @@ Expression control_blend(Build& build, Array x, Expression f1, Expression f2, Ex
     if (!on_1.problem.empty()) return build.error(on_1.problem);
     const Projected on_2 = project(build, f2, x, *second, reach, 2);
     if (!on_2.problem.empty()) return build.error(on_2.problem);
-    const auto across_1 = value_at(build, f1, x, on_2.point), across_2 = value_at(build, f2, x, on_1.point);
+    constexpr bool unites = op == Op::point_uni;
+    const Local local_1 = local_part(build, f1, x, on_1.point, unites);
+    const Local local_2 = local_part(build, f2, x, on_2.point, unites);
+    const auto across_1 = value_at(build, local_1.part, x, on_2.point),
+               across_2 = value_at(build, local_2.part, x, on_1.point);
     if (!across_1 || !across_2) return build.error("a function has no value at the other control point");
     const auto is_zero = [&](const LocalValue& v) {
         return std::abs(v.value) <= on_edge * length(v.gradient) * reach;
     };
     if (is_zero(*across_2)) return build.error("the control point p1 lies on the edge of the two surfaces");
     if (is_zero(*across_1)) return build.error("the control point p2 lies on the edge of the two surfaces");
-    return apply(op, {f1, f2, a0, build.constant(std::abs(across_1->value)),
-                      build.constant(std::abs(across_2->value))});
+    const Expression blend =
+        apply(op, {local_1.part, local_2.part, a0, build.constant(std::abs(across_1->value)),
+                   build.constant(std::abs(across_2->value))});
+    const auto joined = [&](Expression whole, const Local& local, Expression with) {
+        std::vector<Expression> all{with};
+        all.insert(all.end(), local.others.begin(), local.others.end());
+        return unites ? disjunction(system_of(whole), all) : conjunction(system_of(whole), all);
+    };
+    return joined(f2, local_2, joined(f1, local_1, blend));
 }
 
 namespace {
@@ -115,9 +181,11 @@ Rows control_point_rows() {
     constexpr std::string_view names = "x, f1, f2, a0, p1, p2", radius = "f1, f2, r";
     constexpr std::string_view cite = "pasko2005";
     constexpr std::string_view place_note =
-        "Points beside their surface are moved onto it. Every place where the two surfaces meet gets the "
-        "blend; "
-        "use hfBoundedBlendUni to choose one.";
+        "Points beside their surface are moved onto it. Of a union (an intersection for Int and Sub) only "
+        "the "
+        "operand that has its surface at the point is blended. Every place where these two surfaces meet "
+        "gets "
+        "the blend; use hfBoundedBlendUni to choose one.";
     constexpr std::string_view round_note =
         "For functions with unit gradients (distances) and perpendicular faces; r may be a function.";
     return {

@@ -12,7 +12,9 @@ namespace frep::shapes {
 /// `op` is point_uni or point_int. f1 and f2 must be functions of the items of x (3 each, like p1 and p2,
 /// which do not depend on the point). A point beside its surface is moved there by Newton's method, at most
 /// half the distance of the two points; one that does not come there, or that lies on the other surface too
-/// (the edge), is an error, as are functions that depend on the point in another way.
+/// (the edge), is an error, as are functions that depend on the point in another way. Local arrangement: of
+/// a union (intersection for point_int), by R0 or max (min), only the operand that has its surface at the
+/// control point goes into the blend, and the others are joined with the blend afterwards.
 template <Op op>
 Expression control_blend(Build& build, Array x, Expression f1, Expression f2, Expression a0, Array p1,
                          Array p2);

@@ -138,3 +138,41 @@ TEST_CASE("a function at a point is a number; parameters stay") {
     CHECK(at(s.call("hfAt", {s.x, p, Expression(s.graph, s.graph.coordinate(5))}), 0, 0, 0) ==
           shapes::error_value);
 }
+
+TEST_CASE("of a union only the part at the control point is blended, wherever the other parts are") {
+    for (const bool by_max : {false, true}) {
+        CAPTURE(by_max);
+        SphereAndCylinder s;
+        const auto unite = [&](Expression a, Expression b) { return by_max ? max(a, b) : r_or(a, b); };
+        const auto far = [&](double at) { return 0.5 - square(s.x[0] - at) - square(s.x[1] - 1.0); };
+        const Expression all = unite(unite(far(5), s.sphere), unite(far(-6), far(7)));
+        const Expression other = unite(s.cylinder, far(9));
+        Items p1 = s.list({0.8, 0, 0.6}), p2 = s.list({0.5, 0, 1.2});
+        const Expression f = s.call("hfControlBlendUni", {s.x, all, other, 0.15, p1, p2});
+        CHECK(s.warnings.empty());
+        // the profile of the blend of sphere and cylinder alone
+        const auto profile = [&](double z) { return root([&](double x) { return at(f, x, 0, z); }, 0, 2); };
+        CHECK(profile(0.7) == Approx(0.723531576).epsilon(1e-8));
+        CHECK(profile(0.9) == Approx(0.603597349).epsilon(1e-8));
+        for (const double x : {5.0, -6.0, 7.0, 9.0}) CHECK(at(f, x, 1, 0) > 0);
+    }
+}
+
+TEST_CASE("of an intersection only the face at the control point is blended") {
+    Sketch s;
+    // a corner of three planes; the edge of the first two is rounded, the third stays plain
+    const Expression corner = r_and(r_and(-s.x[0], -s.x[2]), 5.0 + s.x[2]);
+    Items p1 = s.list({0, -1, -1}), p2 = s.list({-1, 0, -1});
+    const Expression f = s.call("hfControlBlendInt", {s.x, corner, -s.x[1], -0.4, p1, p2});
+    CHECK(s.warnings.empty());
+    const Expression plain =
+        apply(Op::point_int, {-s.x[0], -s.x[1], s.number(-0.4), s.number(1), s.number(1)});
+    for (const double turn : {0.1, 0.4, 0.7}) {
+        const auto on = [&](const Expression& g) {
+            return root([&](double r) { return at(g, r - 1, r * turn - 1, -2); }, 0, 3);
+        };
+        CHECK(on(f) == Approx(on(plain)).epsilon(1e-9));
+    }
+    CHECK(at(f, -1, -1, 0.01) < 0);
+    CHECK(at(f, -1, -1, -0.01) > 0);
+}
