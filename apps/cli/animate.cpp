@@ -7,12 +7,12 @@
 #include <fmt/format.h>
 
 #include "animate_options.h"
-#include "box.h"
 #include "budget.h"
+#include "color_by.h"
 #include "command_line.h"
 #include "frame_report.h"
 #include "frame_store.h"
-#include "render_flat.h"
+#include "moving_view.h"
 #include "terminal.h"
 #include "verbs.h"
 
@@ -30,17 +30,18 @@ class AnimateRun {
   public:
     AnimateRun(const AnimateOptionTexts& options, AnimatePlan plan, PreparedModel& prepared,
                MovingModel model)
-        : options_(options), plan_(std::move(plan)), prepared_(prepared), model_(std::move(model)) {
+        : options_(options),
+          plan_(std::move(plan)),
+          prepared_(prepared),
+          model_(std::move(model)),
+          view_(options.look, plan_.look, prepared) {
         job_.threads = prepared.threads;
-        flat_axis_ = unused_axis(prepared);
     }
 
     int run() {
-        if (flat_axis_ && options_.turntable)
+        if (view_.is_flat() && options_.turntable)
             return usage_error("--turntable is for solids; this object is 2-D");
-        if (flat_axis_)
-            if (const auto code = refuse_flat(options_.look, prepared_)) return *code;
-        if (!flat_axis_) take_wishes(options_.look, prepared_, plan_.look, finish_);
+        if (const auto code = view_.begin()) return *code;
         values_ = values_of(plan_.frames);
         if (const Status status = find_box(); !status) return fail(status.error());
         if (const int code = measure()) return code;
@@ -65,27 +66,16 @@ class AnimateRun {
         return std::vector<double>(static_cast<std::size_t>(count), 0);
     }
 
-    /// One box for all frames: the stated one, that of the annotation, or the hull of those of some frames.
+    /// One box for all frames.
     Status find_box() {
         const int count = plan_.along ? box_values : 1;
-        std::optional<Box3> all;
         for (int i = 0; i < count; ++i) {
             const std::size_t at =
                 values_.size() > 1 && count > 1
                     ? (values_.size() - 1) * static_cast<std::size_t>(i) / static_cast<std::size_t>(count - 1)
                     : 0;
             if (const Status status = model_.set(values_[at]); !status) return status;
-            const auto field = model_.field(plan_.look.iso, false);
-            if (!field) return field.error();
-            const auto box = choose_box(prepared_, plan_.look.bounds, **field, job_);
-            if (!box) return box.error();
-            all = all ? joined(*all, *box) : *box;
-        }
-        box_ = *all;
-        measured_box_ = box_;
-        if (flat_axis_) {
-            double Vec3::*const axes[3] = {&Vec3::x, &Vec3::y, &Vec3::z};
-            measured_box_.min.*axes[*flat_axis_] = measured_box_.max.*axes[*flat_axis_] = 0;
+            if (const Status status = view_.include(); !status) return status;
         }
         return {};
     }
@@ -93,21 +83,21 @@ class AnimateRun {
     /// Chooses even values, writes the report, warns.
     int measure() {
         if (!plan_.along || (!options_.even && !options_.report)) return exit_ok;
-        const int cells = flat_axis_ ? report_cells_flat : report_cells_solid;
+        const int cells = view_.is_flat() ? report_cells_flat : report_cells_solid;
         ProgressBar bar("measuring");
         job_.on_progress = [&bar](double share) { bar.update(share); };
         if (options_.even) {
-            const auto fine = measure_frames(model_, values_of(fine_steps * plan_.frames + 1), measured_box_,
-                                             plan_.look.iso, cells, job_);
+            const auto fine = measure_frames(model_, values_of(fine_steps * plan_.frames + 1),
+                                             view_.measured_box(), plan_.look.iso, cells, job_);
             if (!fine) return fail(fine.error());
             values_ = even_values(*fine, plan_.frames);
         }
         if (options_.report) {
-            const auto frames = measure_frames(model_, values_, measured_box_, plan_.look.iso, cells, job_);
+            const auto frames =
+                measure_frames(model_, values_, view_.measured_box(), plan_.look.iso, cells, job_);
             if (!frames) return fail(frames.error());
             warn_about_frames(*frames, model_.name());
-            const std::string bytes =
-                json_bytes(frame_report(*frames, model_.name(), flat_axis_.has_value()));
+            const std::string bytes = json_bytes(frame_report(*frames, model_.name(), view_.is_flat()));
             if (*options_.report == "-") {
                 if (const int code = print_result(bytes)) return code;
             } else {
@@ -124,7 +114,8 @@ class AnimateRun {
     std::string key() const {
         std::string out = fmt::format("frep {} frames {}\n", version(), plan_.frames);
         for (const double v : values_) out += number_text(v) + "\n";
-        for (const double v : {box_.min.x, box_.min.y, box_.min.z, box_.max.x, box_.max.y, box_.max.z})
+        const Box3& box = view_.box();
+        for (const double v : {box.min.x, box.min.y, box.min.z, box.max.x, box.max.y, box.max.z})
             out += number_text(v) + " ";
         out += look_key();
         return out + "\n" + std::string(prepared_.model.source().text());
@@ -137,8 +128,8 @@ class AnimateRun {
             fmt::format("\n{} {} {} {}", options_.turntable, o.ortho, o.no_ground, o.model.no_lift);
         for (const auto* text :
              {&o.size, &o.view, &o.azimuth, &o.elevation, &o.perspective, &o.zoom, &o.material, &o.base_color,
-              &o.section, &o.section_color, &o.background, &o.bounds, &o.iso, &o.quality, &o.model.object,
-              &o.model.values, &o.model.map, &o.model.max_steps})
+              &o.color_by, &o.section, &o.section_color, &o.background, &o.bounds, &o.iso, &o.quality,
+              &o.model.object, &o.model.values, &o.model.map, &o.model.max_steps})
             out += "\n" + text->value_or("");
         for (const std::string& text : o.model.named_values) out += "\n" + text;
         return out + "\n" + model_.name();
@@ -165,38 +156,8 @@ class AnimateRun {
     Result<Image> frame(int i) {
         if (const Status status = model_.set(values_[static_cast<std::size_t>(i)]); !status)
             return status.error();
-        return flat_axis_ ? flat_frame() : solid_frame(i);
-    }
-
-    Result<Image> flat_frame() {
-        const PlaneRenderOptions picture =
-            flat_picture(options_.look, plan_.look, prepared_, box_, plan_.look.picture.width);
-        const auto field = model_.field(plan_.look.iso, picture.attribute_colors);
-        if (!field) return field.error();
-        auto result = render_plane(**field, picture, job_);
-        if (!result) return result.error();
-        return std::move(result->image);
-    }
-
-    Result<Image> solid_frame(int i) {
-        PictureOptions picture = plan_.look.picture;
-        if (options_.turntable) picture.view.azimuth += 360.0 * i / plan_.frames;
-        picture.stage = box_;
-        if (plan_.along || !scene_) {
-            const auto field = model_.field(plan_.look.iso, picture.material->uses_attributes);
-            if (!field) return field.error();
-            SceneOptions options;
-            options.bounds = box_;
-            options.quality = plan_.look.quality;
-            options.longest_side = std::max(picture.width, picture.height);
-            if (plan_.look.section)
-                options.section = section_towards(plan_.look.picture.view, plan_.look.section->first,
-                                                  plan_.look.section->second);
-            auto scene = SolidScene::make(**field, options, job_);
-            if (!scene) return scene.error();
-            scene_.emplace(std::move(*scene));
-        }
-        return scene_->picture(picture, job_);
+        if (plan_.along) view_.changed();
+        return view_.picture(options_.turntable ? 360.0 * i / plan_.frames : 0);
     }
 
     /// The frames as they are shown; backwards without the two ends, which would stand still.
@@ -212,12 +173,9 @@ class AnimateRun {
     AnimatePlan plan_;
     PreparedModel& prepared_;
     MovingModel model_;
-    NamedMaterial finish_{};
+    MovingView view_;
     Job job_;
-    std::optional<int> flat_axis_;
-    Box3 box_, measured_box_;
     std::vector<double> values_;
-    std::optional<SolidScene> scene_;
     double start_ = now_seconds();
 };
 
@@ -238,8 +196,9 @@ int run_animate(Arguments arguments) {
     int code = exit_ok;
     auto prepared = prepare_model(options.look.model, code);
     if (!prepared) return code;
+    if (const Status status = take_color_by(options.look, *prepared); !status) return fail(status.error());
     auto model = MovingModel::make(*prepared, plan->along);
-    if (!model) return fail(model.error());
+    if (!model) return fail({model.error().kind, "--along: " + model.error().message});
     if (plan->along)
         if (const Status status = model->set(plan->along->from); !status) return fail(status.error());
     return AnimateRun(options, std::move(*plan), *prepared, std::move(*model)).run();

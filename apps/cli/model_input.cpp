@@ -112,7 +112,7 @@ void declare_model_options(CommandLine& line, ModelOptions& options) {
     line.texts("--param", options.named_values, "NAME=V",
                "value of one parameter: its name, or a[3] (repeatable)");
     line.text("--map", options.map, "MAP",
-              "x, y, z or a number for every coordinate; or NAME=V to freeze some");
+              "x, y, z, a number or a parameter for every coordinate; or NAME=V to freeze some");
     line.text("--engine", options.engine, "NAME", "engine to evaluate with (see frep info --engines)");
     line.flag("--no-lift", options.no_lift,
               "leave set operations that are spelled out by roots or absolute values as they are");
@@ -130,11 +130,21 @@ std::optional<PreparedModel> prepare_model(const ModelOptions& options, int& cod
     if (!read_running_options(options, out)) return std::nullopt;
     const auto count = static_cast<std::size_t>(out.header().coordinates());
     out.map_given = options.map.has_value();
-    auto map = options.map ? parse_map(*options.map, count) : AxisMap::standard(static_cast<int>(count));
-    if (!map) return usage_error("--map: " + map.error().message), std::nullopt;
-    out.map = std::move(*map);
+    out.map = AxisMap::standard(static_cast<int>(count));
+    if (options.map) {
+        auto stated = parse_map(*options.map, count, [&](std::string_view name) {
+            const auto number = find_parameter(out.model, *object, name);
+            const auto most = static_cast<std::size_t>(out.header().parameters());
+            return number && *number <= most ? std::optional(*number - 1) : std::nullopt;
+        });
+        if (!stated) return usage_error("--map: " + stated.error().message), std::nullopt;
+        out.map = std::move(stated->map);
+        out.tied = std::move(stated->tied);
+    }
     const auto parameters = read_parameters(out.model, *object, options.values, options.named_values);
     if (!parameters) return std::nullopt;
+    for (const auto& [coordinate, parameter] : out.tied)
+        out.map.coordinates[coordinate].value = (*parameters)[parameter];
 
     Diagnostics found = out.model.diagnostics();
     auto lowered = out.model.lower(*object, *parameters, found, !options.no_lift);
@@ -180,48 +190,58 @@ namespace {
 
 Error map_error(std::string message) { return {ErrorKind::invalid_argument, std::move(message)}; }
 
+/// Freezes coordinate i at the number, or ties it to the parameter, that `text` means. False for neither.
+bool freeze_at(std::size_t i, std::string_view text, const FindParameter& find, StatedMap& out) {
+    if (const auto value = parse_number(text)) {
+        out.map.coordinates[i] = {.axis = -1, .value = *value};
+        return true;
+    }
+    const auto parameter = find ? find(lower_case(text)) : std::nullopt;
+    if (!parameter) return false;
+    out.map.coordinates[i] = {.axis = -1, .value = 0};
+    out.tied.emplace_back(i, *parameter);
+    return true;
+}
+
 /// Freezes the coordinate that `piece` (NAME=V) names.
-Status freeze(std::string_view piece, AxisMap& map) {
+Status freeze(std::string_view piece, const FindParameter& find, StatedMap& out) {
     const std::size_t equals = piece.find('=');
     const std::string name = lower_case(piece.substr(0, equals));
-    const auto value = parse_number(piece.substr(equals + 1));
-    if (!value) return value.error();
-    for (std::size_t i = 0; i < map.coordinates.size(); ++i) {
+    const std::string_view value = piece.substr(equals + 1);
+    for (std::size_t i = 0; i < out.map.coordinates.size(); ++i) {
         if (name != coordinate_name(i) && name != fmt::format("x{}", i + 1)) continue;
-        map.coordinates[i] = {.axis = -1, .value = *value};
-        return {};
+        if (freeze_at(i, value, find, out)) return {};
+        return map_error(fmt::format("`{}` is neither a number nor a parameter", value));
     }
     return map_error(fmt::format("the object has no coordinate `{}`", name));
 }
 
 }  // namespace
 
-Result<AxisMap> parse_map(std::string_view text, std::size_t count) {
+Result<StatedMap> parse_map(std::string_view text, std::size_t count, const FindParameter& find) {
     const std::vector<std::string_view> pieces = split_at_commas(text);
     const auto is_named = [](std::string_view piece) { return piece.find('=') != std::string_view::npos; };
     const auto named = static_cast<std::size_t>(std::count_if(pieces.begin(), pieces.end(), is_named));
     if (named > 0 && named < pieces.size())
         return map_error("give an entry for every coordinate, or NAME=V entries only");
-    AxisMap map = AxisMap::standard(static_cast<int>(count));
+    StatedMap out{AxisMap::standard(static_cast<int>(count)), {}};
     if (named > 0) {
         for (const std::string_view piece : pieces)
-            if (const Status status = freeze(piece, map); !status) return status.error();
-        return map;
+            if (const Status status = freeze(piece, find, out); !status) return status.error();
+        return out;
     }
     if (pieces.size() != count)
         return map_error(
             fmt::format("`{}` has {} entries, the object has {} coordinates", text, pieces.size(), count));
     for (std::size_t i = 0; i < count; ++i) {
         const std::string entry = lower_case(pieces[i]);
-        if (entry == "x" || entry == "y" || entry == "z") {
-            map.coordinates[i] = {.axis = entry[0] - 'x', .value = 0};
-        } else {
-            const auto value = parse_number(entry);
-            if (!value) return map_error(fmt::format("`{}` is neither x, y, z nor a number", pieces[i]));
-            map.coordinates[i] = {.axis = -1, .value = *value};
-        }
+        if (entry == "x" || entry == "y" || entry == "z")
+            out.map.coordinates[i] = {.axis = entry[0] - 'x', .value = 0};
+        else if (!freeze_at(i, entry, find, out))
+            return map_error(
+                fmt::format("`{}` is neither x, y, z, a number nor a parameter of the object", pieces[i]));
     }
-    return map;
+    return out;
 }
 
 void warn_undefined(const PreparedModel& prepared, NodeId root, std::span<const double> point,

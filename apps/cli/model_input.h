@@ -4,10 +4,13 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "command_line.h"
@@ -44,6 +47,8 @@ struct PreparedModel {
     AxisMap map;
     bool map_given = false;
     int threads = 1;
+    /// Coordinates that --map gives the value of a parameter: coordinate, parameter (both from 0).
+    std::vector<std::pair<std::size_t, std::size_t>> tied = {};
 
     const lang::Object& header() const { return model.program().objects[object]; }
     const Field& field() const { return lowered.field; }
@@ -69,8 +74,17 @@ std::optional<int> unused_axis(const PreparedModel& prepared);
 /// Names of a coordinate, first = 0: "x", and "x1".
 std::string coordinate_name(std::size_t index);
 
-/// The map that `text` means for `count` coordinates: entries for all, or NAME=V only.
-Result<AxisMap> parse_map(std::string_view text, std::size_t count);
+/// The number, from 0, of the parameter that a name means.
+using FindParameter = std::function<std::optional<std::size_t>(std::string_view)>;
+
+/// What `--map` says.
+struct StatedMap {
+    AxisMap map;
+    std::vector<std::pair<std::size_t, std::size_t>> tied;  ///< see PreparedModel
+};
+/// The map that `text` means for `count` coordinates: entries for all (an axis, a number or a parameter's
+/// name), or NAME=V only, V a number or a parameter's name.
+Result<StatedMap> parse_map(std::string_view text, std::size_t count, const FindParameter& find = {});
 
 /// A warning: `message`, and the place in the model's text where `root` begins to be undefined at `point`.
 void warn_undefined(const PreparedModel& prepared, NodeId root, std::span<const double> point,

@@ -33,17 +33,39 @@ std::string names_of(const PreparedModel& prepared) {
 
 }  // namespace
 
+namespace {
+
+/// NAME and the numbers behind the equals sign.
+Result<Along> along_of(std::string_view text, std::string_view name, std::string_view from,
+                       std::string_view to) {
+    const auto first = parse_number(from), last = parse_number(to);
+    if (!first) return first.error();
+    if (!last) return last.error();
+    if (!std::isfinite(*first) || !std::isfinite(*last) || *first == *last)
+        return usage(fmt::format("`{}` must run between two different finite numbers", text));
+    return Along{std::string(name), *first, *last};
+}
+
+}  // namespace
+
 Result<Along> parse_along(std::string_view text) {
     const std::size_t equals = text.find('='), dots = text.find("..");
     if (equals == 0 || equals == text.npos || dots == text.npos || dots < equals)
         return usage(fmt::format("`{}` is not of the form NAME=A..B, as in t=-10..10", text));
-    const auto from = parse_number(text.substr(equals + 1, dots - equals - 1));
-    const auto to = parse_number(text.substr(dots + 2));
-    if (!from) return from.error();
-    if (!to) return to.error();
-    if (!std::isfinite(*from) || !std::isfinite(*to) || *from == *to)
-        return usage(fmt::format("`{}` must run between two different finite numbers", text));
-    return Along{std::string(text.substr(0, equals)), *from, *to};
+    return along_of(text, text.substr(0, equals), text.substr(equals + 1, dots - equals - 1),
+                    text.substr(dots + 2));
+}
+
+Result<Steps> parse_steps(std::string_view text, int most) {
+    const std::size_t equals = text.find('='), first = text.find(':'), second = text.rfind(':');
+    if (equals == 0 || equals == text.npos || first == text.npos || first < equals || first == second)
+        return usage(fmt::format("`{}` is not of the form NAME=A:B:N, as in t=-10:10:5", text));
+    auto along = along_of(text, text.substr(0, equals), text.substr(equals + 1, first - equals - 1),
+                          text.substr(first + 1, second - first - 1));
+    if (!along) return along.error();
+    const auto count = parse_integer(text.substr(second + 1), 2, most);
+    if (!count) return count.error();
+    return Steps{std::move(*along), static_cast<int>(*count)};
 }
 
 std::vector<double> evenly_spaced(const Along& along, int count) {
@@ -59,8 +81,7 @@ Result<MovingModel> MovingModel::make(PreparedModel& prepared, const std::option
     const auto count = prepared.map.coordinates.size();
     if (const auto coordinate = find_coordinate(name, count)) {
         if (prepared.map_given && prepared.map.coordinates[*coordinate].axis >= 0)
-            return usage(
-                fmt::format("--along: coordinate {} is an axis of the picture (--map)", along->name));
+            return usage(fmt::format("coordinate {} is an axis of the picture (--map)", along->name));
         out.coordinate_ = coordinate;
         out.name_ = coordinate_name(*coordinate);
         return out;
@@ -72,7 +93,7 @@ Result<MovingModel> MovingModel::make(PreparedModel& prepared, const std::option
         return out;
     }
     const std::string known = names_of(prepared);
-    return usage(fmt::format("--along: the object has no coordinate or parameter `{}`{}", along->name,
+    return usage(fmt::format("the object has no coordinate or parameter `{}`{}", along->name,
                              known.empty() ? "" : "; there are " + known));
 }
 
@@ -83,6 +104,8 @@ Status MovingModel::set(double value) {
         return {};
     }
     if (!parameter_) return {};
+    for (const auto& [coordinate, parameter] : p.tied)
+        if (parameter == *parameter_) p.map.coordinates[coordinate].value = value;
     std::vector<double> values = p.field().parameters;
     values[*parameter_] = value;
     if (*parameter_ < p.lowered.structural.size() && !p.lowered.structural[*parameter_]) {

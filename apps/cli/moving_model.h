@@ -16,6 +16,13 @@ struct Along {
     double from = 0, to = 0;
 };
 Result<Along> parse_along(std::string_view text);
+/// What `--matrix` and `--color-by` say: NAME=A:B:N, N values from A to B.
+struct Steps {
+    Along along;
+    int count = 0;
+};
+/// `most`: the largest number of values allowed.
+Result<Steps> parse_steps(std::string_view text, int most);
 /// `count` >= 2 values from the beginning to the end.
 std::vector<double> evenly_spaced(const Along& along, int count);
 

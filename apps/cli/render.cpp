@@ -7,9 +7,11 @@
 #include <fmt/format.h>
 
 #include "box.h"
+#include "color_by.h"
 #include "command_line.h"
 #include "picture_file.h"
 #include "render_flat.h"
+#include "render_matrix.h"
 #include "render_options.h"
 #include "terminal.h"
 #include "verbs.h"
@@ -104,14 +106,25 @@ int run_render(Arguments arguments) {
         "render", "render MODEL -o FILE.png [options]",
         "Makes a picture of a solid (rays against the function itself) or of a plane shape.",
         {"frep render pot.hf -o pot.png", "frep render pot.hf -o pot.png --material lacquer --view iso",
-         "frep render pot.hf -o inside.png --section y=0 --size 1600x1200"});
+         "frep render morph.hf -o steps.png --matrix t=-10:10:5"});
     declare_render_options(line, options);
     if (const auto code = line.parse(arguments)) return *code;
     auto plan = plan_render(options);
     if (!plan) return fail(plan.error());
     int code = exit_ok;
-    const auto prepared = prepare_model(options.model, code);
+    auto prepared = prepare_model(options.model, code);
     if (!prepared) return code;
+    if (const Status status = take_color_by(options, *prepared); !status) return fail(status.error());
+    if (options.matrix) {
+        if (options.turntable) return usage_error("--matrix and --turntable exclude each other");
+        const auto matrix = parse_matrix(*options.matrix);
+        if (!matrix) return usage_error("--matrix: " + matrix.error().message);
+        if (!options.size) {
+            plan->picture.width = 480;
+            plan->picture.height = 360;
+        }
+        return render_matrix(options, *plan, *matrix, *prepared);
+    }
     if (unused_axis(*prepared)) return render_flat(options, *plan, *prepared);
     return RenderRun(options, std::move(*plan), *prepared).run();
 }

@@ -225,6 +225,8 @@ void declare_render_options(CommandLine& line, RenderOptionTexts& options) {
     line.text("-o,--output", options.output, "FILE", "the picture: .png; - for standard output");
     line.text("--turntable", options.turntable, "N",
               "N pictures of one turn: FILE-001.png, FILE-002.png, ...");
+    line.text("--matrix", options.matrix, "NAME=A:B:N",
+              "N states along a coordinate or parameter in one picture; two, with a comma: across and down");
     declare_look_options(line, options);
 }
 
@@ -247,6 +249,8 @@ void declare_look_options(CommandLine& line, RenderOptionTexts& options) {
     line.text("--section-color", options.section_color, "#RRGGBB", "color of the cut face");
     line.text("--background", options.background, "WHAT", "studio (default), transparent or #RRGGBB");
     line.flag("--no-ground", options.no_ground, "no table: the object floats, without a shadow");
+    line.text("--color-by", options.color_by, "NAME=A:B:N",
+              "N states along a coordinate or parameter at one place, from blue to red");
     line.text("--iso", options.iso, "V", "the surface F = V (default 0)");
     line.text("--bounds", options.bounds, "BOX",
               "v, or min,max, or ax,bx,ay,by,az,bz; 2-D: ax,bx,ay,by (default: found)");

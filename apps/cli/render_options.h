@@ -12,11 +12,11 @@ namespace frep::cli {
 struct RenderOptionTexts {
     ModelOptions model;
     std::optional<std::string> output, size, view, azimuth, elevation, perspective, zoom, material,
-        base_color, section, section_color, background, bounds, iso, quality, turntable;
+        base_color, section, section_color, background, bounds, iso, quality, turntable, matrix, color_by;
     bool ortho = false, no_ground = false;
 };
 void declare_render_options(CommandLine& line, RenderOptionTexts& options);
-/// Those of the model, the camera and the look: all but the output and the turntable.
+/// Those of the model, the camera and the look: all but the output, the turntable and the matrix.
 void declare_look_options(CommandLine& line, RenderOptionTexts& options);
 
 /// What they mean; the model's own wishes (`--@ material`, `--@ view`, `--@ color`) count where the command
