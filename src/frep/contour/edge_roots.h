@@ -1,11 +1,15 @@
 // EdgeRoots: where the surface crosses edges of the lattice, all edges of a block in a few batches. Each edge
 // keeps a bracket of an inside and an outside point. Where the samples on the line of the edge have given a
 // model of F (see predict), the first point is the root of the model, the second a Newton step with its
-// slope, corrected by the first value. Else a step tries the point of the secant, moved a little towards the
-// middle; all are held so near to the middle that bisection never needs more than six steps less (the ITP
-// method of Oliveira and Takahashi 2020, "An enhancement of the bisection method average performance
-// preserving minmax optimality"). Where a value is not finite it is the middle. Every edge is searched from
-// its lower to its upper end, alone: the result does not depend on the batch. Tested by
+// slope, corrected by the first value. If both values are about as small as they should be, F follows its
+// model along the whole edge and crosses it once. Else the edge is doubtful: it may have several crossings,
+// and values must not choose among them, for those of a pruned part are others off the surface. Signs choose:
+// the edge is bisected three times, by eight parts at once, and again until a secant meets a small value,
+// three rounds at most. After that a step tries the point of the secant, moved a little towards the middle;
+// all are held so near to the middle that bisection never needs more than six steps less (the ITP method of
+// Oliveira and Takahashi 2020, "An enhancement of the bisection method average performance preserving minmax
+// optimality"). Where a value is not finite it is the middle. Every edge is searched from its lower to its
+// upper end, alone: the result does not depend on the batch. Tested by
 // tests/unit/contour/adaptive_roots_test.cpp.
 #pragma once
 
@@ -38,7 +42,8 @@ struct CrossedEdge {
 };
 
 /// Sets the model of an edge from F at t = -1 and t = 2: the cubic through four values (Everett's formula),
-/// or the parabola through three where one of these is not finite. None where both or an end are not.
+/// or the parabola through three where one of these is not finite. None where both or an end are not, or
+/// where it may cross 0 three times.
 void predict(CrossedEdge& edge, double before, double after);
 
 /// The bracket that was found, narrower than root_width.
@@ -60,11 +65,42 @@ class EdgeRoots {
     struct Bracket {
         double low, high, low_value, high_value;
         double low_weight, high_weight;  ///< the values, as the secant takes them
+
+        void move_end(double t, double value) {
+            if ((value >= 0) == (low_value >= 0)) {
+                shrink(low_value, value, high_weight);
+                low = t;
+                low_value = low_weight = value;
+            } else {
+                shrink(high_value, value, low_weight);
+                high = t;
+                high_value = high_weight = value;
+            }
+        }
+        /// The weight of the end that stays where it is, after the other end's value went from `old` to
+        /// `now`: scaled down, so that the end is soon replaced too (Anderson and Bjorck 1973).
+        static void shrink(double old, double now, double& kept) {
+            const double scale = 1 - now / old;
+            kept *= scale > 0 && scale <= 1 ? scale : 0.5;
+        }
     };
+    static Bracket whole(const CrossedEdge& edge);
     static double next_try(const Bracket& b, const EdgeModel& model, double first_value, int step);
 
+    void set_point(std::size_t k, const CrossedEdge& edge, double t) {
+        t_[k] = t;
+        x_[k] = edge.lower.x;
+        y_[k] = edge.lower.y;
+        z_[k] = edge.lower.z;
+        (edge.axis == 0 ? x_ : edge.axis == 1 ? y_ : z_)[k] += t * edge.length;
+    }
+    void evaluate(SampledField& field, std::size_t count);
+    void advance(SampledField& field, const std::vector<CrossedEdge>& edges, int step);
+    void bisect(SampledField& field, const std::vector<CrossedEdge>& edges);
+
     std::vector<Bracket> brackets_;
-    std::vector<std::uint32_t> active_;
+    std::vector<std::uint32_t> active_;    ///< the edges whose values lead the search
+    std::vector<std::uint32_t> doubtful_;  ///< those where values are not what the guess said
     std::vector<double> x_, y_, z_, t_, values_;
 };
 

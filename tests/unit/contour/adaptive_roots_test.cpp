@@ -1,5 +1,5 @@
 // Tests of contour/edge_roots.h: the crossing is bracketed to root_width, in few steps where F is smooth and
-// never in more than bisection and six.
+// never in more than bisection, six, and the signs of three rounds. Among several crossings signs choose.
 #include "frep/contour/edge_roots.h"
 
 #include <doctest/doctest.h>
@@ -42,7 +42,7 @@ Search search(const std::function<double(double)>& f, bool model = false, double
     CHECK(f(2 + 4 * roots[0].inside) >= 0);
     CHECK(!(f(2 + 4 * roots[0].outside) >= 0));
     CHECK(std::abs(roots[0].inside - roots[0].outside) <= root_width);
-    CHECK(result.evaluations <= 46);
+    CHECK(result.evaluations <= 46 + 3 * 8);
     return result;
 }
 
@@ -51,8 +51,8 @@ Search search(const std::function<double(double)>& f, bool model = false, double
 TEST_CASE("smooth functions take few steps") {
     CHECK(search([](double x) { return x - 3.7; }).evaluations <= 6);
     CHECK(search([](double x) { return 3.7 - x; }).evaluations <= 6);
-    CHECK(search([](double x) { return 25 - x * x; }).evaluations <= 8);
-    CHECK(search([](double x) { return x * x - 7; }).evaluations <= 10);
+    CHECK(search([](double x) { return 25 - x * x; }).evaluations <= 25);
+    CHECK(search([](double x) { return x * x - 7; }).evaluations <= 20);
     CHECK(search([](double x) { return 1e200 * (x - 5.9999); }).evaluations <= 8);
     CHECK(search([](double x) { return 1e-250 * (2.5 - x); }).evaluations <= 8);
     CHECK(std::abs(search([](double x) { return x - 3.7; }).root.inside - 0.425) <= root_width);
@@ -64,7 +64,7 @@ TEST_CASE("crossings at the very ends") {
     CHECK(search([](double x) { return 2 - x; }).evaluations <= 6);
 }
 
-TEST_CASE("hard functions take no more than bisection and six") {
+TEST_CASE("hard functions take no more than bisection, six, and three rounds of signs") {
     search([](double x) { return x < 3.1 ? 1.0 : -1e-9; });
     search([](double x) { return std::pow(x - 4.3, 9); });
     search([](double x) { return std::cbrt(x - 4.3); });
@@ -102,6 +102,32 @@ TEST_CASE("a model that misleads costs little, and one of infinite samples is no
     edge.upper_value = -infinity;
     predict(edge, 5, -7);
     CHECK(!edge.model.is_known());
+}
+
+TEST_CASE("among several crossings signs choose, not values") {
+    // Positive factors, and a mixture of sums and roots as R-functions have it, keep the signs.
+    const std::function<double(double)> scales[] = {
+        [](double) { return 1.0; },
+        [](double x) { return std::exp(3 * x); },
+        [](double x) { return std::exp(-3 * x); },
+        [](double x) { return 1e-3 + (x - 3) * (x - 3); },
+        [](double x) { return 1 / (1e-3 + (x - 5) * (x - 5)); },
+        [](double x) { return 2 + std::sin(9 * x); },
+    };
+    for (int place = 0; place < 60; ++place) {
+        CAPTURE(place);
+        // inside up to `first`, and again between the other two
+        const double first = 2.1 + 0.02 * place, second = first + 0.9, third = second + 0.4 + 0.02 * place;
+        for (const bool model : {false, true}) {
+            double found = 0;
+            for (const auto& scale : scales) {
+                const auto f = [&](double x) { return scale(x) * (first - x) * (second - x) * (third - x); };
+                const double t = search(f, model).root.inside;
+                if (&scale == scales) found = t;
+                CHECK(std::abs(t - found) <= 2 * root_width);
+            }
+        }
+    }
 }
 
 TEST_CASE("a wall, where F ends") {

@@ -5,11 +5,11 @@
 #include <doctest/doctest.h>
 
 #include <atomic>
-#include <cstdlib>
 #include <string>
 
 #include "frep/base/parallel.h"
 #include "frep/eval/native_code.h"
+#include "support/bench_model.h"
 #include "support/evaluate.h"
 #include "unit/eval/engines.h"
 #include "unit/eval/random_graph.h"
@@ -92,16 +92,8 @@ TEST_CASE("clones of jit share what they compile, from any thread") {
 
 // More values than registers: one that ends is read from memory while others go there (native_writer.h).
 TEST_CASE("jit gives the bits of the vm for Prospero") {
-    const char* const shared = std::getenv("FREP_SHARED");
-    const std::string text =
-        test::read_text(std::string(shared != nullptr ? shared : "") + "/bench/models/prospero.vm");
-    if (text.empty()) {
-        MESSAGE("skipped: 1 (no prospero.vm)");
-        return;
-    }
-    const Model model(Source("prospero.vm", text), {}, ModelText::vm);
-    const auto field = model.field();
-    REQUIRE(static_cast<bool>(field));
+    const auto field = test::bench_field("prospero.vm");
+    if (!field) return;
     Random random(9);
     Columns<double> points(static_cast<std::size_t>(field->coordinates), 4096);
     for (auto& column : points.columns)

@@ -4,7 +4,6 @@
 
 #include <array>
 #include <bit>
-#include <cstdlib>
 #include <string>
 #include <vector>
 
@@ -13,6 +12,7 @@
 #include "frep/eval/batch_vm.h"
 #include "frep/eval/prune.h"
 #include "frep/trace/tile_worker.h"
+#include "support/bench_model.h"
 #include "support/evaluate.h"
 
 using namespace frep;
@@ -65,16 +65,8 @@ std::vector<bool> pixels(const ClauseTape& tape, const Middles& middles) {
 }  // namespace
 
 TEST_CASE("a leaf of Prospero, from the whole picture down") {
-    const char* const shared = std::getenv("FREP_SHARED");
-    const std::string text =
-        test::read_text(std::string(shared != nullptr ? shared : "") + "/bench/models/prospero.vm");
-    if (text.empty()) {
-        MESSAGE("skipped: 1 (no prospero.vm)");
-        return;
-    }
-    const Model model(Source("prospero.vm", text), {}, ModelText::vm);
-    const auto field = model.field();
-    REQUIRE(static_cast<bool>(field));
+    const auto field = test::bench_field("prospero.vm");
+    if (!field) return;
     const auto whole = make_clause_tape(bind_parameters(*field));
     REQUIRE(whole.has_value());
     const Middles middles(field->coordinates);
