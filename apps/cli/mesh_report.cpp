@@ -103,6 +103,7 @@ Json mesh_json(const MeshReport& report, const MeshFigures& figures) {
     add_error(figures.error, out);
     out["undefined_points"] = figures.undefined_points;
     if (figures.first_undefined) out["first_undefined"] = point_json(*figures.first_undefined);
+    out["tight_cells"] = figures.tight_cells;
     out["closed"] = report.closed;
     out["manifold"] = report.manifold;
     out["oriented"] = report.oriented;

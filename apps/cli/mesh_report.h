@@ -31,6 +31,7 @@ struct ObjectFigures {
 /// What is told of a mesh beside its MeshReport.
 struct MeshFigures {
     std::uint64_t undefined_points = 0;
+    std::uint64_t tight_cells = 0;
     std::optional<Vec3> first_undefined;
     std::optional<MeshError> error;
     std::string_view unit;

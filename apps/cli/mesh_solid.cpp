@@ -62,6 +62,8 @@ class SolidRun {
                                               : fmt::format("the mesh of {} is empty", name_of(prepared)));
         warn_touches(result->touches, plan_.cap, "mesh is");
         warn_samples(prepared, result->undefined_points, result->first_undefined);
+        warn_tight(*result);
+        figures_.tight_cells += result->tight_cells;
         figures_.undefined_points += result->undefined_points;
         if (!figures_.first_undefined) figures_.first_undefined = result->first_undefined;
 
@@ -115,6 +117,16 @@ class SolidRun {
             figures_.error = *error;
         }
         return exit_ok;
+    }
+
+    static void warn_tight(const ContourResult& result) {
+        if (result.tight_cells == 0) return;
+        const Vec3 p = *result.first_tight;
+        print_warning(fmt::format(
+            "walls or gaps are about as thin as a cell in {} cell{}, the first near {}; the mesh may be "
+            "parted "
+            "or joined there: a smaller --cell shows more",
+            result.tight_cells, result.tight_cells == 1 ? "" : "s", point_text(std::array{p.x, p.y, p.z})));
     }
 
     static std::string name_of(const PreparedModel& prepared) {

@@ -56,7 +56,7 @@ class BlockContourer {
     /// stands for the field in block_box(); it may be the field itself.
     std::unique_ptr<BlockMesh> contour(std::uint64_t code, SampledField& part);
 
-    UndefinedTally undefined;
+    PlaceTally undefined;
     std::array<bool, 6> touches{};
 
   private:

@@ -6,7 +6,7 @@ namespace frep::contouring {
 namespace {
 
 /// The point of the first undefined sample of a tally.
-Vec3 place_of(const UndefinedTally& tally, const Grid& grid) {
+Vec3 place_of(const PlaceTally& tally, const Grid& grid) {
     const std::array<std::uint32_t, 3> block = morton_decode(tally.block);
     const std::uint32_t at = tally.local;
     return grid.point(block[0] * block_side + at % block_side - 1,
@@ -28,6 +28,8 @@ void add_findings(BlockFindings findings, const OctreeResult& octree, ContourRes
     findings.undefined.add(octree.undefined);
     result.undefined_points = findings.undefined.count;
     if (result.undefined_points > 0) result.first_undefined = place_of(findings.undefined, result.grid);
+    result.tight_cells = findings.tight.count;
+    if (result.tight_cells > 0) result.first_tight = place_of(findings.tight, result.grid);
     for (std::size_t s = 0; s < 6; ++s) result.touches[s] = findings.touches[s] || octree.touches[s];
 }
 

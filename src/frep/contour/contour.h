@@ -45,8 +45,13 @@ struct ContourResult {
     Grid grid;
     std::uint64_t undefined_points = 0;   ///< samples of the lattice where F is undefined
     std::optional<Vec3> first_undefined;  ///< the first of them, in block order
-    std::array<bool, 6> touches{};        ///< the shape reaches the side -x +x -y +y -z +z of the grid
-    std::size_t sampled_blocks = 0;       ///< blocks of 8^3 samples that were evaluated
+    /// Cells that the surface passes more than once, or through a face whose corners alternate (adaptive
+    /// method only): the solid or a gap is about as thin as a cell there, and whether its parts hang together
+    /// is not known from the samples.
+    std::uint64_t tight_cells = 0;
+    std::optional<Vec3> first_tight;  ///< the lower corner of the first of them, in block order
+    std::array<bool, 6> touches{};    ///< the shape reaches the side -x +x -y +y -z +z of the grid
+    std::size_t sampled_blocks = 0;   ///< blocks of 8^3 samples that were evaluated
 };
 
 /// Errors: invalid_argument for bad bounds or cell sizes (see make_grid), over_limit for too many cells or

@@ -288,6 +288,7 @@ void DualSampler::collect_cells(DualBlock& block) {
         end[a] = last_[a] < block_side ? last_[a] : block_side;
     }
     const std::uint32_t own = (1u << end[0]) - (1u << begin[0]);
+    const auto& patterns = cell_patterns();
     for (std::uint32_t z = begin[2]; z < end[2]; ++z) {
         for (std::uint32_t y = begin[1]; y < end[1]; ++y) {
             const std::uint32_t* const row = &rows_[z * side + y];
@@ -299,6 +300,7 @@ void DualSampler::collect_cells(DualBlock& block) {
                 DualCell cell;
                 cell.number = static_cast<std::uint16_t>(local_number(l));
                 cell.signs = static_cast<std::uint8_t>(signs_at(l, 1));
+                if (!patterns[cell.signs].is_simple()) tight.add(1, block.code, local_number(l));
                 block.cell_set.insert(cell.number);
                 block.cells.push_back(cell);
             }

@@ -130,7 +130,8 @@ class DualSampler {
     /// to the tallies below.
     const DualBlock* sample(std::uint64_t code, const BlockFields& fields);
 
-    UndefinedTally undefined;
+    PlaceTally undefined;
+    PlaceTally tight;  ///< cells, see ContourResult::tight_cells
     std::array<bool, 6> touches{};
 
   private:

@@ -55,7 +55,7 @@ struct Part {
 /// What one task finds.
 struct Found {
     std::vector<std::uint64_t> undecided;
-    UndefinedTally undefined;
+    PlaceTally undefined;
     std::array<bool, 6> touches{};
 };
 
@@ -118,7 +118,7 @@ void subdivide(std::span<const std::uint64_t> parents, int level, const Grid& gr
 
 }  // namespace
 
-void UndefinedTally::add(std::uint64_t samples, std::uint64_t at_block, std::uint32_t at_local) {
+void PlaceTally::add(std::uint64_t samples, std::uint64_t at_block, std::uint32_t at_local) {
     count += samples;
     if (at_block < block || (at_block == block && at_local < local)) {
         block = at_block;
@@ -126,7 +126,7 @@ void UndefinedTally::add(std::uint64_t samples, std::uint64_t at_block, std::uin
     }
 }
 
-void UndefinedTally::add(const UndefinedTally& other) {
+void PlaceTally::add(const PlaceTally& other) {
     if (other.count > 0) add(other.count, other.block, other.local);
 }
 

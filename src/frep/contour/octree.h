@@ -15,14 +15,15 @@
 
 namespace frep::contouring {
 
-/// Undefined samples seen: how many, and the key of the first: block code, then position in the block.
-struct UndefinedTally {
+/// Places seen (undefined samples, tight cells): how many, and the key of the first: block code, then
+/// position in the block.
+struct PlaceTally {
     std::uint64_t count = 0;
     std::uint64_t block = ~std::uint64_t{0};
     std::uint32_t local = ~std::uint32_t{0};
 
     void add(std::uint64_t samples, std::uint64_t at_block, std::uint32_t at_local);
-    void add(const UndefinedTally& other);
+    void add(const PlaceTally& other);
 };
 
 struct OctreeOptions {
@@ -33,7 +34,7 @@ struct OctreeOptions {
 
 struct OctreeResult {
     std::vector<std::uint64_t> blocks;  ///< codes, ascending
-    UndefinedTally undefined;           ///< samples of parts that are undefined as a whole
+    PlaceTally undefined;               ///< samples of parts that are undefined as a whole
     std::array<bool, 6> touches{};      ///< sides -x +x -y +y -z +z reached by parts inside
 };
 

@@ -477,3 +477,22 @@ TEST_CASE("without a cap the mesh ends at the sides of the box") {
     CHECK(report.bounds->min.y == -1);
     CHECK(r.touches == std::array<bool, 6>{true, true, true, true, true, true});
 }
+
+TEST_CASE("solids about as thin as a cell are told of, and others are not") {
+    const auto tilted_wall = [](double x, double y, double z) {
+        return box(.96 * x + .28 * y, .96 * y - .28 * x, z, .03, .7, .6);
+    };
+    const auto tight_of = [](FunctionField::Value f, int cells) {
+        return adaptive(FunctionField(f), {.bounds = Box3::cube(1), .cells = cells});
+    };
+    const ContourResult thin = tight_of(tilted_wall, 32);
+    CHECK(thin.tight_cells > 4);
+    REQUIRE(thin.first_tight);
+    const Vec3 p = *thin.first_tight;
+    CHECK(std::abs(.96 * p.x + .28 * p.y) < .03 + 2 * 2.0 / 32);
+    CHECK(tight_of(tilted_wall, 64).tight_cells == 0);
+    CHECK(tight_of([](double x, double y, double z) { return ball(x, y, z, .55); }, 16).tight_cells == 0);
+    CHECK(
+        tight_of([](double x, double y, double z) { return box(x, y, z, .47, .33, .61); }, 16).tight_cells ==
+        0);
+}
