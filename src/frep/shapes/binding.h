@@ -96,13 +96,18 @@ Rows skeleton_rows();
 Rows convolution_rows();
 Rows freeform_rows();
 Rows transform_rows();
+Rows affine_rows();
+Rows deformation_rows();
+Rows pattern_rows();
 Rows set_operation_rows();
 Rows blend_rows();
 Rows control_point_rows();
 Rows metamorphosis_rows();
+Rows radial_morph_rows();
 Rows polygon_rows();
 Rows distance_rows();
 Rows noise_rows();
+Rows hypertexture_rows();
 Rows attribute_rows();
 Rows attribute_table_rows();
 
