@@ -12,22 +12,27 @@ namespace frep::shapes {
 
 namespace {
 
-/// How often the step inwards is halved where it comes near another part of the boundary.
+/// How often the step inwards is halved where it leaves the shape again.
 constexpr int most_halvings = 4;
-constexpr double clear_of_boundary = 0.9;
 
-/// The largest step of inset, inset/2, ... after which no other boundary point is nearer than that step; 0
-/// where there is none.
-double step_inwards(const std::vector<SurfacePoint>& points, const SurfacePoint& from, double inset) {
+/// A place inside and its distance from the boundary; 0 where none was found.
+struct InnerPoint {
+    Vec3 place;
+    double depth = 0;
+};
+
+/// The point at the largest step of inset, inset/2, ... that is inside: the nearest boundary point tells.
+InnerPoint inner_point(const std::vector<SurfacePoint>& points, const SurfacePoint& from, double inset) {
     double step = inset;
     for (int halving = 0; halving <= most_halvings; ++halving, step *= 0.5) {
         const Vec3 place = from.place + from.inward * step;
-        bool is_clear = true;
+        const SurfacePoint* nearest = &from;
         for (const SurfacePoint& other : points)
-            is_clear = is_clear && length(place - other.place) >= clear_of_boundary * step;
-        if (is_clear) return step;
+            if (length(place - other.place) < length(place - nearest->place)) nearest = &other;
+        const double depth = dot(place - nearest->place, nearest->inward);
+        if (depth > 0) return {place, math::min(depth, step)};
     }
-    return 0;
+    return {};
 }
 
 void add_constraints(RadialProblem& problem, const std::vector<SurfacePoint>& points, double t,
@@ -38,8 +43,8 @@ void add_constraints(RadialProblem& problem, const std::vector<SurfacePoint>& po
     };
     for (const SurfacePoint& point : points) {
         add(point.place, 0);
-        if (const double step = step_inwards(points, point, inset); step > 0)
-            add(point.place + point.inward * step, step);
+        if (const InnerPoint inner = inner_point(points, point, inset); inner.depth > 0)
+            add(inner.place, inner.depth);
     }
 }
 
