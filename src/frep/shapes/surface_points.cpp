@@ -14,6 +14,8 @@ namespace {
 
 constexpr std::size_t most_samples = 1u << 18;
 constexpr int bisections = 44;
+/// Nodes of the graph that all evaluations together may pass, some seconds of work.
+constexpr std::size_t most_work = std::size_t{1} << 28;
 
 double component(const Vec3& v, int axis) { return axis == 0 ? v.x : axis == 1 ? v.y : v.z; }
 Vec3 along(int axis, double length) {
@@ -56,13 +58,16 @@ class Finder {
   public:
     Finder(Build& build, Expression f, Array x) : build_(build), f_(f), x_(x) {}
 
+    /// True once there was too much to do; values are missing from then on.
+    bool exhausted() const { return work_ > most_work; }
+
     /// Samples the lattice; false where f has no value anywhere.
     bool sample(Lattice& lattice) {
         bool any = false;
         for (std::size_t k = 0; k < lattice.count[2]; ++k)
             for (std::size_t j = 0; j < lattice.count[1]; ++j)
                 for (std::size_t i = 0; i < lattice.count[0]; ++i) {
-                    const auto value = value_at(build_, f_, x_, lattice.at(i, j, k));
+                    const auto value = evaluate(lattice.at(i, j, k));
                     any = any || value;
                     lattice.inside.push_back(value && value->value >= 0);
                 }
@@ -70,13 +75,13 @@ class Finder {
     }
 
     /// The point between an inside and an outside place, by bisection.
-    std::optional<SurfacePoint> crossing(Vec3 inside, Vec3 outside) const {
+    std::optional<SurfacePoint> crossing(Vec3 inside, Vec3 outside) {
         for (int step = 0; step < bisections; ++step) {
             const Vec3 middle = inside * 0.5 + outside * 0.5;
-            const auto value = value_at(build_, f_, x_, middle);
+            const auto value = evaluate(middle);
             (value && value->value >= 0 ? inside : outside) = middle;
         }
-        const auto there = value_at(build_, f_, x_, inside);
+        const auto there = evaluate(inside);
         if (!there) return std::nullopt;
         const double slope = length(there->gradient);
         if (!(slope > 0 && slope < math::infinity)) return std::nullopt;
@@ -84,9 +89,15 @@ class Finder {
     }
 
   private:
+    std::optional<LocalValue> evaluate(const Vec3& p) {
+        work_ += f_.id() + 1;
+        return exhausted() ? std::nullopt : value_at(build_, f_, x_, p);
+    }
+
     Build& build_;
     Expression f_;
     Array x_;
+    std::size_t work_ = 0;
 };
 
 /// The farthest point from those chosen, again and again, until all are near one (Gonzalez 1985).
@@ -110,7 +121,10 @@ SurfacePoints surface_points(Build& build, Expression f, Array x, const SurfaceS
     Lattice lattice;
     if (!lattice.divide(search)) return {{}, "the spacing is too small for the box"};
     Finder finder(build, f, x);
-    if (!finder.sample(lattice)) return {{}, "it is no function of x alone, or it has no value in the box"};
+    const std::string too_much = "its boundary needs too many evaluations: enlarge the spacing";
+    const bool defined = finder.sample(lattice);
+    if (finder.exhausted()) return {{}, too_much};
+    if (!defined) return {{}, "it is no function of x alone, or it has no value in the box"};
     std::vector<SurfacePoint> all;
     for (std::size_t k = 0; k < lattice.count[2]; ++k)
         for (std::size_t j = 0; j < lattice.count[1]; ++j)
@@ -131,6 +145,7 @@ SurfacePoints surface_points(Build& build, Expression f, Array x, const SurfaceS
                         all.push_back(*point);
                 }
             }
+    if (finder.exhausted()) return {{}, too_much};
     if (all.empty()) return {{}, "it has no boundary within the box"};
     return {thinned(all, search.spacing), {}};
 }

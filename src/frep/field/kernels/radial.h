@@ -1,7 +1,7 @@
 // Kernel of interpolation by radial functions: a linear polynomial and a sum of w r^3 over centres of space
 // and time, the smoothest function through given values where the weights are solved for (Duchon 1977; Turk
 // and O'Brien 1999). The weights have both signs and cancel, so that ranges of single terms say nothing:
-// intervals use Taylor's formula for the whole sum. Tested by tests/unit/shapes/radial_morph_test.cpp and
+// intervals use Taylor's formula for the whole sum. Tested by tests/unit/shapes/radial_test.cpp and
 // intervals_test.cpp.
 #pragma once
 
