@@ -13,9 +13,9 @@ namespace frep::shapes {
 namespace {
 
 constexpr std::size_t most_samples = 1u << 18;
-constexpr int bisections = 44;
+constexpr int bisections = 36;
 /// Nodes of the graph that all evaluations together may pass, some seconds of work.
-constexpr std::size_t most_work = std::size_t{1} << 28;
+constexpr std::size_t most_work = std::size_t{1} << 26;
 
 double component(const Vec3& v, int axis) { return axis == 0 ? v.x : axis == 1 ? v.y : v.z; }
 Vec3 along(int axis, double length) {

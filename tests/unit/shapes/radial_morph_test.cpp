@@ -138,7 +138,7 @@ TEST_CASE("what cannot be a metamorphosis is refused with a reason") {
     CHECK(refused({s.x, s.x[2], disk, stripes, 0, 1, box, 0.05, 0.1}));
     CHECK(s.warnings[0].find("enlarge the spacing") != std::string::npos);
     Expression deep = disk;  // many operations at very many points
-    for (int i = 0; i < 3000; ++i) deep = sin(deep) * 1.1;
+    for (int i = 0; i < 3000; ++i) deep = deep * 1.0001;
     CHECK(refused({s.x, s.x[2], disk, deep, 0, 1, box, 0.02, 0.1}));
     CHECK(s.warnings[0].find("too many evaluations") != std::string::npos);
     Items other = {s.x[0], s.x[1]};
