@@ -67,14 +67,19 @@ struct Table {
         add("Convolution", convolution_rows());
         add("Free-form volumes", freeform_rows());
         add("Transformations", transform_rows());
+        add("Transformations", affine_rows());
+        add("Deformations", deformation_rows());
+        add("Arrays of copies", pattern_rows());
         add("Set operations", set_operation_rows());
         add("Blends", blend_rows());
         add("Blends by points", control_point_rows());
         add("Offsets", offset_rows());
         add("Metamorphosis", metamorphosis_rows());
+        add("Metamorphosis", radial_morph_rows());
         add("Polygons", polygon_rows());
         add("Distance", distance_rows());
         add("Noise", noise_rows());
+        add("Noise", hypertexture_rows());
         add("Attributes", attribute_rows());
         add("Attribute tables", attribute_table_rows());
     }

@@ -90,6 +90,16 @@ const std::vector<Case>& cases() {
          [](Sketch& s) {
              return op3(s, Op::fitted_blob, {0, 0, 0, 1.5, 1, 1, 0.5, -0.5, 2.5, 0.3});
          }},
+        {"radial_cubic",
+         [](Sketch& s) {
+             std::vector<NodeId> data, lead;
+             for (const double d :
+                  {0.3, -0.4, 0.1, 0.2, -1.0, 0.0, 0.0, 0.0, 0.0, 1.5, 1.0, 0.5, -0.5, 1.0, -2.0})
+                 data.push_back(s.graph.constant(d));
+             for (const Expression& e : s.x) lead.push_back(e.id());
+             lead.push_back((s.x[0] - s.x[1]).id());
+             return Expression(s.graph, s.graph.make_block(Op::radial_cubic, lead, data));
+         }},
         {"conv_point",
          [](Sketch& s) {
              return op3(s, Op::conv_point, {0, 0, 0, 1.5, 1, 0.5, -0.5, 2.5});
