@@ -164,7 +164,7 @@ NodeId Graph::undefined() {
 std::span<const double> Graph::block_of(NodeId id) const {
     const Node& n = nodes_[id];
     if (info(n.op).kind != OpKind::block || n.payload == 0) return {};
-    return blocks_[n.payload - 1];
+    return *blocks_[n.payload - 1];
 }
 
 double Graph::evaluate(Op op, std::span<const NodeId> args, std::uint32_t payload) const {
@@ -174,7 +174,7 @@ double Graph::evaluate(Op op, std::span<const NodeId> args, std::uint32_t payloa
         args.size() > few ? std::span(many) : std::span(direct).first(args.size());
     for (std::size_t i = 0; i < args.size(); ++i) values[i] = known_value(args[i]);
     std::span<const double> block;
-    if (info(op).kind == OpKind::block && payload) block = blocks_[payload - 1];
+    if (info(op).kind == OpKind::block && payload) block = *blocks_[payload - 1];
     return meaning<double>(op, std::span<const double>(values), block);
 }
 
@@ -258,19 +258,26 @@ NodeId Graph::make(Op op, std::span<const NodeId> given, std::uint32_t payload) 
     return id;
 }
 
-std::uint32_t Graph::intern_block(std::vector<double> values) {
-    std::uint64_t key = values.size();
-    for (double value : values) key = mix(key, bits_of(value));
+std::uint32_t Graph::intern_block(Block values) {
+    std::uint64_t key = values->size();
+    for (double value : *values) key = mix(key, bits_of(value));
     const auto [first, last] = block_index_.equal_range(key);
     for (auto i = first; i != last; ++i) {
-        const std::vector<double>& known = blocks_[i->second];
-        const bool equal = std::equal(values.begin(), values.end(), known.begin(), known.end(),
-                                      [](double x, double y) { return bits_of(x) == bits_of(y); });
+        const Block& known = blocks_[i->second];
+        const bool equal =
+            known == values || std::equal(values->begin(), values->end(), known->begin(), known->end(),
+                                          [](double x, double y) { return bits_of(x) == bits_of(y); });
         if (equal) return i->second + 1;
     }
     block_index_.emplace(key, static_cast<std::uint32_t>(blocks_.size()));
     blocks_.push_back(std::move(values));
     return static_cast<std::uint32_t>(blocks_.size());
+}
+
+NodeId Graph::make_block(Op op, std::span<const NodeId> lead, std::vector<double> data) {
+    FREP_CHECK(info(op).kind == OpKind::block && static_cast<int>(lead.size()) == info(op).arity);
+    FREP_CHECK(!data.empty());
+    return make(op, lead, intern_block(std::make_shared<const std::vector<double>>(std::move(data))));
 }
 
 NodeId Graph::make_block(Op op, std::span<const NodeId> lead, std::span<const NodeId> data) {
@@ -281,7 +288,7 @@ NodeId Graph::make_block(Op op, std::span<const NodeId> lead, std::span<const No
     if (constant_data) {
         std::vector<double> values(data.size());
         std::transform(data.begin(), data.end(), values.begin(), [&](NodeId id) { return constant_of(id); });
-        return make(op, lead, intern_block(std::move(values)));
+        return make_block(op, lead, std::move(values));
     }
     std::vector<NodeId> all(lead.begin(), lead.end());
     all.insert(all.end(), data.begin(), data.end());

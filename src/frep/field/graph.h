@@ -55,6 +55,8 @@ class Graph {
     }
     /// An op of kind block: `lead` arguments, then data. All-constant data go into a block of the graph.
     NodeId make_block(Op op, std::span<const NodeId> lead, std::span<const NodeId> data);
+    /// The same for data that are numbers: no nodes are made of them.
+    NodeId make_block(Op op, std::span<const NodeId> lead, std::vector<double> data);
     /// A region with its arguments (guard first); the graph shares ownership.
     NodeId make_region(std::shared_ptr<const Region> region, std::span<const NodeId> arguments);
 
@@ -120,7 +122,9 @@ class Graph {
     double known_value(NodeId id) const;
     void know(NodeId id, double value);
     NodeId append(Op op, std::span<const NodeId> arguments, std::uint32_t payload, std::uint8_t flags);
-    std::uint32_t intern_block(std::vector<double> values);
+    using Block = std::shared_ptr<const std::vector<double>>;
+
+    std::uint32_t intern_block(Block values);
 
     std::vector<Node> nodes_;
     std::vector<NodeId> arguments_;
@@ -129,7 +133,7 @@ class Graph {
     std::vector<double> bound_;  ///< by node, as far as it goes: value of an operation or parameter that does
                                  ///< not depend on the point
     std::vector<double> constants_;
-    std::vector<std::vector<double>> blocks_;
+    std::vector<Block> blocks_;  ///< shared with the graphs that were made of this one
     std::unordered_multimap<std::uint64_t, std::uint32_t> block_index_;  ///< hash of a block -> its number
     std::vector<std::shared_ptr<const Region>> regions_;
     std::vector<NodeId> table_;  ///< open addressing, free = no_node; made when a node is looked up

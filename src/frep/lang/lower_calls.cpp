@@ -73,6 +73,14 @@ NodeId Lowerer::library_call(const ExpressionNode& node) {
             report(Severity::warning, "HF105", node.span, message, "in this call",
                    fmt::format("the value is then {:.0f}, as in the old tools", shapes::error_value));
         };
+        build.refuse = [&](const std::string& message) {
+            report(Severity::error, "HF109", node.span, message, "named here",
+                   "`frep explain HF109` says which files a model may name");
+        };
+        build.left_out = [&](const std::string& message) {
+            report(Severity::warning, "HF109", node.span, message, "named here",
+                   "the rest of the file is used");
+        };
         build.decides = [&](Expression value) { known(value.id()); };
         build.set_system = set_system();
         const std::size_t before = graph().size();

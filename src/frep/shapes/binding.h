@@ -106,6 +106,8 @@ Rows offset_rows();
 Rows metamorphosis_rows();
 Rows radial_morph_rows();
 Rows polygon_rows();
+Rows outline_rows();
+Rows volume_rows();
 Rows distance_rows();
 Rows noise_rows();
 Rows hypertexture_rows();

@@ -77,6 +77,8 @@ struct Table {
         add("Metamorphosis", metamorphosis_rows());
         add("Metamorphosis", radial_morph_rows());
         add("Polygons", polygon_rows());
+        add("Outlines", outline_rows());
+        add("Voxel files", volume_rows());
         add("Distance", distance_rows());
         add("Noise", noise_rows());
         add("Noise", hypertexture_rows());

@@ -43,9 +43,18 @@ struct Build {
     /// The file's operators, for functions that stand for several of them.
     SetSystem set_system = {};
 
+    /// Told why a file that the call names cannot serve, and what of a file was left out: one sentence, shown
+    /// as an error or a warning at the call.
+    std::function<void(const std::string&)> refuse = {};
+    std::function<void(const std::string&)> left_out = {};
+
     Expression constant(double value) const { return {graph, graph.constant(value)}; }
     Expression error(const std::string& message) const {
         if (warn) warn(message);
+        return constant(error_value);
+    }
+    Expression refused(const std::string& message) const {
+        if (refuse) refuse(message);
         return constant(error_value);
     }
 };

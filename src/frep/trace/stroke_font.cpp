@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <optional>
 
+#include "frep/base/code_points.h"
 #include "frep/base/source.h"
 
 namespace frep::drawing {
@@ -50,22 +51,6 @@ Drawn drawn(char32_t code) {
 }
 
 const glyphs::Glyph& glyph_of(const Drawn& character) { return character.glyph ? *character.glyph : missing; }
-
-/// The code points of a text; bytes that are not UTF-8 become U+FFFD.
-std::u32string code_points(std::string_view bytes) {
-    const std::string text = to_valid_utf8(bytes);
-    std::u32string out;
-    for (std::size_t i = 0; i < text.size();) {
-        const auto byte = [&](std::size_t k) { return static_cast<unsigned char>(text[i + k]); };
-        const unsigned lead = byte(0);
-        const std::size_t length = lead < 0x80 ? 1 : lead < 0xe0 ? 2 : lead < 0xf0 ? 3 : 4;
-        char32_t code = length == 1 ? lead : lead & (0x7fu >> length);
-        for (std::size_t k = 1; k < length; ++k) code = code << 6 | (byte(k) & 0x3fu);
-        out.push_back(code);
-        i += length;
-    }
-    return out;
-}
 
 /// The width of the ink in units of the grid.
 double grid_width(const std::u32string& text) {

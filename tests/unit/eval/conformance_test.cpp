@@ -63,6 +63,8 @@ Case block_case(Op op, Random& random, std::size_t items, bool nodes) {
         }
     }
     for (std::size_t i = 0; i < count; ++i) test.block.push_back(random.plain(3));
+    if (op == Op::outline_distance) test.block = outline_data(random);
+    count = layout.volume ? count : test.block.size();
     for (const double value : test.block) data.push_back(graph->constant(value));
     if (nodes) {
         const std::size_t first = layout.volume ? 3 : 0;

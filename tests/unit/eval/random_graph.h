@@ -12,6 +12,7 @@
 
 #include "frep/field/field.h"
 #include "frep/math/bits.h"
+#include "frep/shapes/area.h"
 
 namespace frep_test {
 
@@ -105,6 +106,21 @@ inline DataLayout data_layout(frep::Op op) {
         }
     }
     return layout;
+}
+
+/// Data of outline_distance, which are no free numbers: of a few contours that cross themselves and one
+/// another.
+inline std::vector<double> outline_data(Random& random) {
+    for (;;) {
+        frep::Area area;
+        for (std::size_t part = 1 + random.below(3); part > 0; --part) {
+            std::vector<frep::Vec2> contour(3 + random.below(6));
+            for (frep::Vec2& p : contour) p = {random.plain(3), random.plain(3)};
+            const auto rule = random.chance(50) ? frep::FillRule::nonzero : frep::FillRule::even_odd;
+            area.parts.push_back({{contour}, rule});
+        }
+        if (auto data = frep::shapes::area_data(area)) return *data;  // else: without area
+    }
 }
 
 struct RandomOptions {
@@ -271,6 +287,8 @@ inline frep::NodeId RandomField::block(frep::Graph& graph, frep::Op op, const st
     std::vector<NodeId> lead, data;
     for (int i = 0; i < frep::info(op).arity; ++i) lead.push_back(operand(pool));
     const bool constant = random_.chance(70);
+    if (op == frep::Op::outline_distance && constant)
+        return graph.make_block(op, lead, outline_data(random_));
     const DataLayout layout = data_layout(op);
     std::size_t items = layout.item * (1 + random_.below(4));
     if (layout.volume) {

@@ -15,6 +15,8 @@ class Data {
     std::size_t size() const { return count_; }
     /// True when every item is a constant of the model.
     bool is_constant() const { return block_ != nullptr; }
+    /// All items of constant data.
+    const double* block() const { return block_; }
     /// Item i of constant data.
     double number(std::size_t i) const { return block_[i]; }
     T operator[](std::size_t i) const { return block_ ? math::constant<T>(block_[i]) : values_[i]; }
