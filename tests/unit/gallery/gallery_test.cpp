@@ -1,6 +1,6 @@
 // The gallery: every model of examples/ says where it comes from, compiles without a warning and, if it is a
 // solid, meshes to a closed, oriented manifold at three resolutions; a flat one gives closed outlines. The
-// models of examples/library/ and of examples/thesis/ compile and are not empty. scripts/gallery renders them all.
+// models of examples/library/ and examples/thesis/ compile and are not empty. scripts/gallery renders all.
 #include <doctest/doctest.h>
 
 #include <algorithm>
