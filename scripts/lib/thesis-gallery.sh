@@ -18,7 +18,7 @@ blending_figures=(
     "bounding-solid bounding-solid render"
     "shape blend-shape render"
     "shape-more blend-shape render --param strength=0.5"
-    "shape-asymmetric blend-shape render --param up=0.12 --param out=0.5"
+    "shape-asymmetric blend-shape render --param up=0.1 --param out=0.8 --param strength=0.35"
     "shape-small blend-shape render --param size=0.5"
     "shape-beside blend-shape render --param side=0.5"
     "shape-less blend-shape render --param strength=-0.15"
@@ -50,9 +50,9 @@ thesis_pictures=(
 # Animations of docs/gallery/thesis.md: NAME MODEL OPTIONS... . A model A+B is made by frep morph of A and B, with the
 # options before the colon.
 thesis_animations=(
-    "dancing-buddhas dancing-buddhas --along time=0..4 --frames 81 --fps 12.5 --size 320x228"
+    "dancing-buddhas dancing-buddhas --along time=0..4 --even --frames 101 --fps 12.5 --size 320x243"
     "buddha-to-character dancing-buddhas --along time=0..1 --param step=1.6 --even --back --frames 32 --fps 12.5
-     --size 320x228"
+     --size 320x243"
     "disk-to-square disk-to-square --along z=-10..10 --even --back --frames 30 --size 320x200"
     "ring-to-cross ring+cross : --along z=-10..10 --even --back --frames 30 --size 320x200"
     "torus-to-box torus-to-box --along t=-10..10 --even --back --frames 30 --size 320x220 --zoom 1.2 --quality draft"
@@ -85,7 +85,7 @@ row_of() {
 blending_figure() { # NAME
     local row size=()
     row_of "$1" "${blending_figures[@]}" || return 1
-    if [[ " ${row[*]} " != *" --size "* ]]; then size=(--size 320x240 --quality draft); fi
+    if [[ " ${row[*]} " != *" --size "* ]]; then size=(--size 320x240 --quality normal); fi
     "$frep" "${row[2]}" "$root/examples/thesis/blending/${row[1]}.hf" -o "$root/docs/blending/$1.png" --quiet \
         "${size[@]}" "${row[@]:3}"
 }
@@ -145,7 +145,7 @@ shikki_set() {
 --@ source   after the virtual Shikki of G. Pasko's thesis, section 4.1
 --@ units    mm
 --@ bounds   -300 300  -160 320  -5 235
---@ param    a[1]  spread  1..1.3  default 1  "How far apart the pieces stand"
+--@ param    a[1]  spread  1..1.1  default 1  "How far apart the pieces stand"
 --@ material lacquer
 --@ view     14 27
 
