@@ -25,7 +25,8 @@ std::optional<std::size_t> find_coordinate(std::string_view name, std::size_t co
 std::string names_of(const PreparedModel& prepared) {
     std::string out;
     for (std::size_t i = 0; i < prepared.map.coordinates.size(); ++i)
-        if (prepared.map.coordinates[i].axis < 0) out += (out.empty() ? "" : ", ") + coordinate_name(i);
+        if (!prepared.map_given || prepared.map.coordinates[i].axis < 0)
+            out += (out.empty() ? "" : ", ") + coordinate_name(i);
     for (const auto& parameter : prepared.model.program().annotations.parameters)
         out += (out.empty() ? "" : ", ") + parameter.name;
     return out;
