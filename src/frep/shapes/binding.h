@@ -101,6 +101,8 @@ Rows blend_rows();
 Rows control_point_rows();
 Rows metamorphosis_rows();
 Rows polygon_rows();
+Rows extremum_rows();
+Rows sweep_rows();
 Rows distance_rows();
 Rows noise_rows();
 Rows attribute_rows();

@@ -72,6 +72,8 @@ struct Table {
         add("Blends by points", control_point_rows());
         add("Metamorphosis", metamorphosis_rows());
         add("Polygons", polygon_rows());
+        add("Extrema", extremum_rows());
+        add("Sweeps", sweep_rows());
         add("Distance", distance_rows());
         add("Noise", noise_rows());
         add("Attributes", attribute_rows());
