@@ -143,23 +143,38 @@ class SpaceSearch {
     /// From the value at a point with derivatives in `d`, and what a curvature of up to `bend` adds.
     double linear_bound(const Box& box, const std::array<Interval, 3>& at, const SearchPoint& point,
                         const std::array<Interval, 3>& d, double bend) const {
-        Interval within_box(0.0), curved(0.0), spread(0.0), from_middle(0.0), square(0.0);
+        Interval within_box(0.0), curved(0.0), spread(0.0), square(0.0);
         for (std::size_t i = 0; i < n_; ++i) {
             if (!(size(d[i]) < math::infinity)) return math::infinity;
             const Interval step = box.range[i] - at[i];
             within_box = within_box + Interval((d[i] * step).hi);
             curved = curved + math::square(Interval(size(step)));
-            if (!in_ball_) continue;
-            // d = g + rest: the largest g . t over the ball is exact, the rest is small.
             const Interval g(middle(d[i]));
             spread = spread + Interval(size(d[i] - g)) * Interval(size(step));
-            from_middle = from_middle + g * (at[i] - Interval(0.5));
             square = square + math::square(g);
         }
         double most = within_box.hi;
-        if (in_ball_) most = std::min(most, (spread + Interval(0.5) * math::sqrt(square) - from_middle).hi);
+        if (in_ball_) {
+            const double in_ball = over_ball(box, at, d, math::sqrt(square).hi);
+            most = std::min(most, (spread + Interval(in_ball)).hi);
+        }
         const Interval bent = Interval(0.5) * Interval(bend) * curved;
         return (Interval(point.most()) + Interval(most) + bent).hi;
+    }
+
+    /// The most of g . (t - at) over what the box and the ball have in common, g = the middle of d: at most
+    /// that of g . (t - at) - k (|t - 1/2|^2 - 1/4) over the box, for every k >= 0. With k = |g| they meet
+    /// where the box holds the best place of the ball.
+    double over_ball(const Box& box, const std::array<Interval, 3>& at, const std::array<Interval, 3>& d,
+                     double k) const {
+        Interval sum = Interval(0.25) * Interval(k);
+        for (std::size_t i = 0; i < n_; ++i) {
+            const double g = middle(d[i]);
+            const double best = k > 0 ? std::clamp(0.5 + 0.5 * g / k, box.range[i].lo, box.range[i].hi) : 0.5;
+            const Interval t(best);
+            sum = sum + Interval(g) * (t - at[i]) - Interval(k) * math::square(t - Interval(0.5));
+        }
+        return sum.hi + 1e-14 * k;
     }
 
     SearchState state_;
