@@ -7,6 +7,7 @@
 #include "frep/eval/jit_evaluator.h"
 #include "frep/eval/reference.h"
 #include "frep/eval/vm_evaluator.h"
+#include "frep/field/search.h"
 
 namespace frep {
 namespace {
@@ -40,6 +41,8 @@ Status check_field(const Field& field, std::span<const NodeId> roots) {
     for (NodeId id = 0; id < needed.size(); ++id) {
         if (!needed[id]) continue;
         const Node& node = graph.node(id);
+        if (is_search_variable(node))
+            return Error{ErrorKind::invalid_argument, "the model uses a variable of a search outside of it"};
         if (node.op == Op::coordinate && node.payload >= static_cast<std::uint32_t>(field.coordinates))
             return Error{ErrorKind::invalid_argument, "the model uses coordinate " +
                                                           std::to_string(node.payload + 1) + " of " +

@@ -24,7 +24,8 @@ class ScalarRegion {
     /// Runs on guard and start values; cells() then holds the final contents.
     void run(std::span<const T> arguments);
     const std::vector<T>& cells() const { return cells_; }
-    /// The statement whose condition was undefined or whose loop had too many steps in the last run.
+    /// The statement whose condition was undefined, whose loop had too many steps or whose search was not
+    /// finished in the last run.
     const RegionStatement* failed() const { return failed_; }
 
   private:
@@ -32,12 +33,15 @@ class ScalarRegion {
     bool execute_loop(const RegionStatement& statement, std::uint32_t number);
     void evaluate(std::uint32_t number);
     void store(const RegionStatement& statement);
+    bool search(const RegionStatement& statement, std::uint32_t number);
     T load(const Node& node) const;
 
     const Region& region_;
     std::int64_t max_steps_, steps_ = 0;
     std::vector<std::vector<NodeId>> needed_;  ///< by statement: nodes of body, ascending
     std::vector<T> cells_, values_, arguments_;
+    std::unique_ptr<IntervalRegion> searcher_;  ///< made for the first search
+    int searched_ = 0;                          ///< boxes and points that searches looked at
     const RegionStatement* failed_ = nullptr;
 };
 

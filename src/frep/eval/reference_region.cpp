@@ -40,6 +40,7 @@ void ScalarRegion<T>::run(std::span<const T> arguments) {
     std::fill(cells_.begin(), cells_.end(), undefined<T>());
     failed_ = nullptr;
     steps_ = 0;
+    searched_ = 0;
     if (!kernels::is_true(number_of(arguments[0]))) return;  // not true where undefined
     for (std::size_t k = 0; k < region_.inputs.size(); ++k) cells_[region_.inputs[k]] = arguments[k + 1];
     if (!execute(region_.program)) std::fill(cells_.begin(), cells_.end(), undefined<T>());
@@ -52,6 +53,10 @@ bool ScalarRegion<T>::execute(std::span<const std::uint32_t> statements) {
         const RegionStatement& statement = region_.statements[number];
         if (statement.kind == RegionStatement::Kind::loop) {
             if (!execute_loop(statement, number)) return false;
+            continue;
+        }
+        if (statement.kind == RegionStatement::Kind::search) {
+            if (!search(statement, number)) return false;
             continue;
         }
         evaluate(number);
@@ -84,6 +89,23 @@ bool ScalarRegion<T>::execute_loop(const RegionStatement& statement, std::uint32
         ++steps_;
         if (!execute(statement.first)) return false;
     }
+}
+
+template <class T>
+bool ScalarRegion<T>::search(const RegionStatement& statement, std::uint32_t number) {
+    if (!searcher_) searcher_ = std::make_unique<IntervalRegion>(region_, max_steps_);
+    const auto content = [&](std::uint32_t cell) { return number_of(cells_[cell]); };
+    const BoxSearchResult found = searcher_->search_at(number, content, searched_);
+    if (!found.finished) {
+        failed_ = &statement;
+        return false;
+    }
+    for (std::size_t i = 0; i < statement.variables.size(); ++i)
+        cells_[statement.variables[i]] = math::constant<T>(found.place[i]);
+    if (!execute(statement.first)) return false;
+    evaluate(number);
+    cells_[statement.result] = values_[statement.value];
+    return true;
 }
 
 template <class T>

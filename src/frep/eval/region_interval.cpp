@@ -70,6 +70,9 @@ void IntervalRegion::run(std::span<const Interval> arguments) {
     undecided_ = 0;
     work_ = 0;
     latest_ = nullptr;
+    most_work_ = work_limit;
+    at_a_point_ = false;
+    searched_ = 0;
     for (std::size_t k = 0; k < region_.inputs.size(); ++k)
         state_.cells[region_.inputs[k]] = arguments[k + 1];
     if (!given_up_) execute(region_.program);
@@ -84,7 +87,7 @@ void IntervalRegion::run(std::span<const Interval> arguments) {
 
 void IntervalRegion::work(std::size_t amount) {
     work_ += static_cast<std::int64_t>(amount);
-    given_up_ = given_up_ || work_ > work_limit || undecided_ > undecided_limit;
+    given_up_ = given_up_ || work_ > most_work_ || undecided_ > undecided_limit;
 }
 
 void IntervalRegion::execute(std::span<const std::uint32_t> statements) {
@@ -107,6 +110,10 @@ void IntervalRegion::execute(std::span<const std::uint32_t> statements) {
                 break;
             case RegionStatement::Kind::loop:
                 loop(statement, number);
+                break;
+            case RegionStatement::Kind::search:
+                search(statement, number);
+                latest_ = nullptr;
                 break;
         }
     }

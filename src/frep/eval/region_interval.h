@@ -6,8 +6,9 @@
 // condition says there (region_narrow.h), and the stores are joined cell by cell. An undecided loop condition
 // sets the store aside as one that may leave and goes on with those that stay; what leaves is joined. Points
 // whose condition is undefined or that take too many steps are undefined as a whole, which the flag of every
-// result says. Work is bounded: beyond the limits below the answer is "anything, maybe undefined". Tested by
-// tests/unit/eval/region_interval_test.cpp.
+// result says. Work is bounded: beyond the limits below the answer is "anything, maybe undefined". Searches
+// are done by box_search.h, for boxes as for single points, so that all engines find the same places. Tested
+// by tests/unit/eval/region_interval_test.cpp and region_search_test.cpp.
 #pragma once
 
 #include <cstdint>
@@ -15,6 +16,7 @@
 #include <utility>
 #include <vector>
 
+#include "frep/eval/box_search.h"
 #include "frep/field/region.h"
 #include "frep/math/interval.h"
 
@@ -27,6 +29,10 @@ class IntervalRegion {
     static constexpr int undecided_limit = 256;
     static constexpr std::int64_t work_limit = std::int64_t{1} << 18;
     static constexpr std::uint32_t cell_limit = 4096;
+    /// The same work for all statements inside the search of a single point.
+    static constexpr std::int64_t search_work_limit = std::int64_t{1} << 24;
+    /// Boxes and points that one search over a box of space looks at.
+    static constexpr int coarse_search_limit = 96;
 
     /// `region` must outlive the object.
     IntervalRegion(const Region& region, std::int64_t max_steps);
@@ -34,6 +40,19 @@ class IntervalRegion {
     /// Runs on guard and start values; cells() then encloses the final contents for every point.
     void run(std::span<const math::Interval> arguments);
     const std::vector<math::Interval>& cells() const { return state_.cells; }
+
+    /// For an engine that runs the region at a point: carries out the search statement `number` there.
+    /// `content(cell)` is what the engine has in a cell. `spent` counts the boxes and points looked at by the
+    /// searches of the point.
+    template <class Content>
+    BoxSearchResult search_at(std::uint32_t number, Content content, int& spent) {
+        start_search(number);
+        for (const std::uint32_t cell : cells_read_) state_.cells[cell] = math::Interval(content(cell));
+        searched_ = spent;
+        const BoxSearchResult result = run_search(number);
+        spent = searched_;
+        return result;
+    }
 
   private:
     /// What the points that are at one place of the program have in memory.
@@ -54,6 +73,13 @@ class IntervalRegion {
     void branch(const RegionStatement& statement, std::uint32_t number);
     void loop(const RegionStatement& statement, std::uint32_t number);
     void store(const RegionStatement& statement);
+    void search(const RegionStatement& statement, std::uint32_t number);
+    void start_search(std::uint32_t number);
+    BoxSearchResult run_search(std::uint32_t number);
+    Slope slope(std::uint32_t number, std::span<const math::Interval> box);
+    math::Interval value_after(const RegionStatement& statement, std::uint32_t number,
+                               std::span<const math::Interval> box);
+    void slope_of_node(const RegionStatement& statement, NodeId id, std::span<const math::Interval> box);
     Sides decide(const RegionStatement& statement, std::uint32_t number);
     void keep(State& state, const Sides& sides, bool truth) const;
     void evaluate(std::uint32_t number);
@@ -70,7 +96,15 @@ class IntervalRegion {
     bool may_fail_ = false;                    ///< some point may be undefined as a whole
     bool given_up_ = false;                    ///< a limit is reached
     int undecided_ = 0;
-    std::int64_t work_ = 0;
+    std::int64_t work_ = 0, most_work_ = work_limit;
+
+    class Searched;
+    std::vector<std::uint32_t> cells_read_;  ///< by the search of search_at()
+    std::uint32_t read_by_ = ~std::uint32_t{0};
+    std::vector<Slope> slopes_;  ///< by node
+    std::vector<const Slope*> slope_arguments_;
+    bool at_a_point_ = false;  ///< all ranges are single numbers: searches are done to their end
+    int searched_ = 0;         ///< boxes and points that searches looked at
 };
 
 }  // namespace frep

@@ -16,6 +16,8 @@ std::vector<NodeId> roots_of(const RegionStatement& statement) {
         }
         case RegionStatement::Kind::store:
             return {statement.index, statement.value};
+        case RegionStatement::Kind::search:
+            return {statement.value};
         default:
             return {statement.condition};
     }

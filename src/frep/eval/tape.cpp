@@ -72,6 +72,9 @@ Result<std::shared_ptr<const RegionCode>> compile_region(const Region& region, c
             case RegionStatement::Kind::store:
                 roots = {s.index, s.value};
                 break;
+            case RegionStatement::Kind::search:
+                roots = {s.value};
+                break;
             case RegionStatement::Kind::branch:
             case RegionStatement::Kind::loop:
                 roots = {s.condition};

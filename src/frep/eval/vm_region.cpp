@@ -21,6 +21,7 @@ RegionMachine<T>::RegionMachine(const RegionCall& call, std::int64_t max_steps)
     pending_.resize(width_ * call.code->outputs);
     alive_.resize(width_);
     steps_.resize(width_);
+    searched_.resize(width_ * math::Lanes::size);
 }
 
 template <class T>
@@ -46,6 +47,7 @@ template <class T>
 void RegionMachine<T>::start(std::span<const Row<T>> arguments, std::size_t offset, std::size_t count) {
     std::fill(cells_.begin(), cells_.end(), math::constant<T>(math::quiet_nan));
     std::fill(steps_.begin(), steps_.end(), math::Lanes(0.0));
+    std::fill(searched_.begin(), searched_.end(), 0);
     for (std::size_t i = 0; i < count; ++i)
         alive_[i] = kernels::is_true(lane_values(arguments[0][offset + i]));  // false for NaN
     for (std::size_t k = 0; k < region_->inputs.size(); ++k)
@@ -93,6 +95,9 @@ void RegionMachine<T>::execute(std::span<const std::uint32_t> statements, std::s
                 break;
             case RegionStatement::Kind::loop:
                 loop(statement, number, level);
+                break;
+            case RegionStatement::Kind::search:
+                search(statement, number, level);
                 break;
         }
     }
@@ -186,6 +191,42 @@ void RegionMachine<T>::loop(const RegionStatement& statement, std::uint32_t numb
         drop_dead(inside);
     }
     drop_dead(masks(level));
+}
+
+/// Every lane searches for itself; then all take the values at what they found.
+template <class T>
+void RegionMachine<T>::search(const RegionStatement& statement, std::uint32_t number, std::size_t level) {
+    if (!searcher_) searcher_ = std::make_unique<IntervalRegion>(*region_, max_steps_);
+    Mask* inner = masks(level + 1);
+    std::copy_n(masks(level), count_, inner);
+    for (std::size_t at = 0; at < count_; ++at) {
+        for (int lane = 0; lane < math::Lanes::size; ++lane)
+            if (inner[at][lane] && !search_lane(statement, number, at, lane)) alive_[at].set(lane, false);
+    }
+    drop_dead(inner);
+    execute(statement.first, level + 1);
+    drop_dead(inner);
+    const Range range = active_range(inner);
+    if (range.count != 0) {
+        const Frame<T> frame = run_tape(number, range);
+        const Row<T> value = interpreters_[number].output(frame, 0);
+        T* const cell = cells_.data() + statement.result * width_ + range.first;
+        for (std::size_t i = 0; i < range.count; ++i)
+            cell[i] = math::select(inner[range.first + i], value[i], cell[i]);
+    }
+    drop_dead(masks(level));
+}
+
+/// Puts the best place into the variables of one lane; false when the search was not finished.
+template <class T>
+bool RegionMachine<T>::search_lane(const RegionStatement& statement, std::uint32_t number, std::size_t at,
+                                   int lane) {
+    const auto content = [&](std::uint32_t cell) { return lane_values(cells_[cell * width_ + at])[lane]; };
+    int& spent = searched_[at * math::Lanes::size + static_cast<std::size_t>(lane)];
+    const BoxSearchResult found = searcher_->search_at(number, content, spent);
+    for (std::size_t i = 0; i < statement.variables.size(); ++i)
+        copy_lane(cells_[statement.variables[i] * width_ + at], math::constant<T>(found.place[i]), lane);
+    return found.finished;
 }
 
 template <class T>

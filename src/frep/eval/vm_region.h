@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -35,6 +36,8 @@ class RegionMachine {
     void store(const RegionStatement& statement, std::uint32_t number, Range range, const Mask* active);
     void branch(const RegionStatement& statement, std::uint32_t number, std::size_t level);
     void loop(const RegionStatement& statement, std::uint32_t number, std::size_t level);
+    void search(const RegionStatement& statement, std::uint32_t number, std::size_t level);
+    bool search_lane(const RegionStatement& statement, std::uint32_t number, std::size_t at, int lane);
     Frame<T> run_tape(std::uint32_t number, Range range);
     void decide(std::uint32_t number, Range range, Mask* holds, Mask* fails);
     void count_steps(Range range, Mask* active);
@@ -52,7 +55,9 @@ class RegionMachine {
     std::vector<T> cells_, registers_, pending_;
     std::vector<Mask> alive_;
     std::vector<math::Lanes> steps_;
-    std::vector<std::vector<Mask>> rows_;  ///< two a level: active lanes; lanes that wait for `else`
+    std::vector<int> searched_;                 ///< by lane: boxes and points that searches looked at
+    std::unique_ptr<IntervalRegion> searcher_;  ///< made for the first search
+    std::vector<std::vector<Mask>> rows_;       ///< two a level: active lanes; lanes that wait for `else`
 };
 
 }  // namespace frep

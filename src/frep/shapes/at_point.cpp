@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "frep/field/meaning.h"
+#include "frep/field/search.h"
 
 namespace frep::shapes {
 
@@ -30,18 +31,15 @@ std::vector<bool> nodes_above(const Graph& graph, Array roots, Array x) {
     return needed;
 }
 
-/// True for leaves that mean another value at another point.
+/// True for leaves that mean another value at another point. A variable of a search is the same at all.
 bool moves(const Node& node) {
-    switch (node.op) {
-        case Op::coordinate:
-        case Op::cell:
-        case Op::load:
-        case Op::region:
-        case Op::output:
-            return true;
-        default:
-            return false;
-    }
+    return node.op == Op::cell || node.op == Op::load ||
+           (node.op == Op::coordinate && !is_search_variable(node));
+}
+
+/// True for a loop or a search, which has no value of its own before it runs.
+bool runs(const Node& node) {
+    return node.op == Op::region || node.op == Op::output || node.op == Op::coordinate;
 }
 
 }  // namespace
@@ -82,7 +80,7 @@ std::optional<std::vector<LocalValue>> values_at(Build& build, Array functions, 
             continue;
         }
         const Node& node = graph.node(id);
-        if (moves(node)) return std::nullopt;
+        if (moves(node) || runs(node)) return std::nullopt;
         if (info(node.op).kind == OpKind::leaf) {
             const auto number = graph.bound_value(id);
             if (!number) return std::nullopt;

@@ -13,8 +13,8 @@
 namespace frep::shapes {
 
 /// `f` as a function of the items of `x`, at `p`: each node that is an item of x is replaced by the item of
-/// p. Nothing when f depends on the point in another way too (other coordinates, or a loop that depends on
-/// the point), or when the sizes differ.
+/// p. Nothing when f depends on the point in another way too (other coordinates, or the memory of a loop that
+/// the call stands in), or when the sizes differ.
 std::optional<Expression> at_point(Build& build, Expression f, Array x, Array p);
 
 /// The value and the gradient with respect to the first three items of x.
@@ -23,7 +23,8 @@ struct LocalValue {
     Vec3 gradient;
 };
 
-/// The same in numbers, for the present parameters. Nothing as of at_point(), and where f is undefined.
+/// The same in numbers, for the present parameters. Nothing as of at_point(), where f is undefined, and where
+/// it needs a loop that depends on the point or a search.
 std::optional<LocalValue> value_at(Build& build, Expression f, Array x, const Vec3& p);
 
 /// The same for several functions in one pass over the graph; nothing when one of them has no value.

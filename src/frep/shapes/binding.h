@@ -108,6 +108,8 @@ Rows radial_morph_rows();
 Rows polygon_rows();
 Rows outline_rows();
 Rows volume_rows();
+Rows extremum_rows();
+Rows sweep_rows();
 Rows distance_rows();
 Rows noise_rows();
 Rows hypertexture_rows();

@@ -79,6 +79,8 @@ struct Table {
         add("Polygons", polygon_rows());
         add("Outlines", outline_rows());
         add("Voxel files", volume_rows());
+        add("Extrema", extremum_rows());
+        add("Sweeps", sweep_rows());
         add("Distance", distance_rows());
         add("Noise", noise_rows());
         add("Noise", hypertexture_rows());

@@ -1,0 +1,254 @@
+// Implementation of slope.h: rules of differentiation over intervals. Flags of derivatives are dropped: a
+// product of 0 and an infinite kink is 0, and where a value may be undefined nobody asks for its slope.
+#include "frep/eval/slope.h"
+
+#include <algorithm>
+#include <vector>
+
+#include "frep/field/kernels/basic.h"
+#include "frep/field/meaning.h"
+
+namespace frep {
+
+namespace {
+
+using math::Interval;
+
+Interval plain(const Interval& a) { return a.is_empty() ? Interval::entire() : Interval(a.lo, a.hi); }
+Interval times(const Interval& a, const Interval& b) { return plain(a * b); }
+Interval plus(const Interval& a, const Interval& b) { return plain(a + b); }
+Interval either(const Interval& a, const Interval& b) { return {std::min(a.lo, b.lo), std::max(a.hi, b.hi)}; }
+
+class Rules {
+  public:
+    explicit Rules(std::size_t variables) : n_(variables) {}
+
+    /// (v . grad a)^2 over unit vectors v.
+    Interval outer(const Slope& a) const {
+        if (n_ == 1) return plain(math::square(plain(a.d[0])));
+        return {0.0, square_norm(a).hi};
+    }
+    /// 2 (v . grad a) (v . grad b) over unit vectors v.
+    Interval outer(const Slope& a, const Slope& b) const {
+        Interval dot(0.0);
+        for (std::size_t i = 0; i < n_; ++i) dot = plus(dot, times(a.d[i], b.d[i]));
+        if (n_ == 1) return times(Interval(2.0), dot);
+        const double most = math::sqrt(plain(times(square_norm(a), square_norm(b)))).hi;
+        return plus(dot, {-most, most});
+    }
+    Interval square_norm(const Slope& a) const {
+        Interval sum(0.0);
+        for (std::size_t i = 0; i < n_; ++i) sum = plus(sum, plain(math::square(plain(a.d[i]))));
+        return sum;
+    }
+
+    /// k a + l b + m, where k and l do not change.
+    Slope sum(const Interval& value, const Slope& a, const Interval& k, const Slope& b,
+              const Interval& l) const {
+        Slope out{value, {}, plus(times(k, a.curvature), times(l, b.curvature)), false};
+        for (std::size_t i = 0; i < n_; ++i) out.d[i] = plus(times(k, a.d[i]), times(l, b.d[i]));
+        return out;
+    }
+
+    /// h(a) with its first and second derivative.
+    Slope chain(const Interval& value, const Slope& a, const Interval& first, const Interval& second) const {
+        Slope out{value, {}, plus(times(first, a.curvature), times(second, outer(a))), false};
+        for (std::size_t i = 0; i < n_; ++i) out.d[i] = times(first, a.d[i]);
+        return out;
+    }
+
+    Slope product(const Interval& value, const Slope& a, const Slope& b) const {
+        if (a.fixed) return chain(value, b, plain(a.value), Interval(0.0));
+        if (b.fixed) return chain(value, a, plain(b.value), Interval(0.0));
+        Slope out = sum(value, a, plain(b.value), b, plain(a.value));
+        out.curvature = plus(out.curvature, outer(a, b));
+        return out;
+    }
+
+    Slope reciprocal(const Slope& b) const {
+        const Interval one_over = Interval(1.0) / plain(b.value);
+        const Interval first = -math::square(one_over);
+        return chain(one_over, b, plain(first), times(times(Interval(-2.0), first), one_over));
+    }
+
+    /// The two sides of a kink: both functions, of which the value is always one.
+    Slope one_of(const Interval& value, const Slope& a, const Slope& b) const {
+        Slope out{value, {}, either(a.curvature, b.curvature), false};
+        for (std::size_t i = 0; i < n_; ++i) out.d[i] = either(a.d[i], b.d[i]);
+        return out;
+    }
+
+    Slope smaller(const Interval& value, const Slope& a, const Slope& b) const {
+        if (a.value.hi < b.value.lo) return with_value(a, value);
+        if (b.value.hi < a.value.lo) return with_value(b, value);
+        Slope out = one_of(value, a, b);
+        out.curvature.lo = -math::infinity;
+        return out;
+    }
+
+    Slope negative(const Slope& a) const {
+        Slope out{-a.value, {}, -a.curvature, a.fixed};
+        for (std::size_t i = 0; i < n_; ++i) out.d[i] = -a.d[i];
+        return out;
+    }
+
+    Slope absolute(const Interval& value, const Slope& a) const {
+        if (a.value.lo >= 0) return with_value(a, value);
+        if (a.value.hi <= 0) return with_value(negative(a), value);
+        Slope out = one_of(value, a, negative(a));
+        out.curvature.hi = math::infinity;
+        return out;
+    }
+
+    /// sqrt(a^2 + b^2), whose surface over (a, b) is a cone.
+    Slope length(const Interval& value, const Slope& a, const Slope& b) const {
+        const Interval h = plain(value);
+        if (!(h.lo > 0)) {
+            Slope out{value, {}, Interval::entire(), false};
+            for (std::size_t i = 0; i < n_; ++i) {
+                const double most = math::hypot(plain(a.d[i]), plain(b.d[i])).hi;
+                out.d[i] = {-most, most};
+            }
+            out.curvature.lo = cone_floor(a, b);
+            return out;
+        }
+        const Interval u = part_of(a.value, h), v = part_of(b.value, h);
+        Slope out = sum(value, a, u, b, v);
+        // The part of the second derivatives of a cone: never below 0, at most the squared gradients over h.
+        const Interval cone(0.0, plain(plus(outer(a), outer(b)) / h).hi);
+        out.curvature = plus(out.curvature, cone);
+        return out;
+    }
+
+    /// a + b - length (sign -1) or a + b + length (sign 1).
+    Slope r_function(const Interval& value, const Slope& a, const Slope& b, double sign) const {
+        const Interval h = math::hypot(plain(a.value), plain(b.value));
+        const Interval s(sign);
+        const Interval u = weight(part_of(a.value, h), s), v = weight(part_of(b.value, h), s);
+        Slope out = sum(value, a, u, b, v);
+        Interval cone(0.0, h.lo > 0 ? plain(plus(outer(a), outer(b)) / h).hi : math::infinity);
+        if (a.fixed && b.fixed) cone = Interval(0.0);
+        out.curvature = plus(out.curvature, times(s, cone));
+        return out;
+    }
+
+    static Slope with_value(Slope a, const Interval& value) {
+        a.value = value;
+        return a;
+    }
+
+  private:
+    /// a / sqrt(a^2 + b^2), in -1 .. 1.
+    static Interval part_of(const Interval& a, const Interval& h) {
+        if (!(h.lo > 0)) return {-1.0, 1.0};
+        const Interval q = plain(plain(a) / h);
+        return {std::max(q.lo, -1.0), std::min(q.hi, 1.0)};
+    }
+    /// 1 + sign * part, in 0 .. 2.
+    static Interval weight(const Interval& part, const Interval& sign) {
+        const Interval w = plus(Interval(1.0), times(sign, part));
+        return {std::max(w.lo, 0.0), std::min(w.hi, 2.0)};
+    }
+    /// The least curvature of sqrt(a^2 + b^2), whose own is never below 0: that of a and b, by parts up to 1.
+    static double cone_floor(const Slope& a, const Slope& b) {
+        const auto size = [](const Interval& k) { return std::max(math::abs(k.lo), math::abs(k.hi)); };
+        return -plus(Interval(size(a.curvature)), Interval(size(b.curvature))).hi;
+    }
+
+    std::size_t n_;
+};
+
+/// b^e for a constant exponent.
+Slope power(const Rules& rules, const Interval& value, const Slope& b, double e) {
+    const Interval base = plain(b.value);
+    const bool whole = e == math::trunc(e) && e >= 2 && e <= 16;
+    if (!whole && !(base.lo > 1e-6)) return Slope::of_value(value);
+    const auto to = [&](double exponent) {
+        return whole ? math::powi(base, static_cast<int>(exponent))
+                     : plain(math::pow(base, Interval(exponent)));
+    };
+    return rules.chain(value, b, times(Interval(e), to(e - 1)),
+                       times(times(Interval(e), Interval(e - 1)), to(e - 2)));
+}
+
+Slope select(const Rules& rules, const Interval& value, std::span<const Slope* const> a) {
+    const auto taken = kernels::is_true(Interval(a[0]->value.lo, a[0]->value.hi));
+    if (!a[0]->value.is_empty() && taken.surely_true()) return Rules::with_value(*a[1], value);
+    if (!a[0]->value.is_empty() && taken.surely_false()) return Rules::with_value(*a[2], value);
+    // A choice that is the same in the whole box: each point of space has one of the two functions.
+    return a[0]->fixed ? rules.one_of(value, *a[1], *a[2]) : Slope::of_value(value);
+}
+
+}  // namespace
+
+Slope slope_of(Op op, std::span<const Slope* const> a, std::span<const double> block, std::size_t variables) {
+    std::array<Interval, 8> few;
+    std::vector<Interval> many(a.size() > few.size() ? a.size() : 0);
+    const std::span<Interval> operands = many.empty() ? std::span(few).first(a.size()) : std::span(many);
+    bool fixed = true;
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        operands[i] = a[i]->value;
+        fixed = fixed && a[i]->fixed;
+    }
+    const Interval value = meaning<Interval>(op, std::span<const Interval>(operands), block);
+    if (fixed) return Slope::constant(value);
+    const Rules rules(variables);
+    const Interval one(1.0), x = plain(a[0]->value);
+    switch (op) {
+        case Op::add:
+            return rules.sum(value, *a[0], one, *a[1], one);
+        case Op::sub:
+            return rules.sum(value, *a[0], one, *a[1], -one);
+        case Op::neg:
+            return rules.negative(*a[0]);
+        case Op::mul:
+            return rules.product(value, *a[0], *a[1]);
+        case Op::div:
+            if (a[1]->value.contains(0.0)) return Slope::of_value(value);
+            if (a[1]->fixed) return rules.chain(value, *a[0], plain(one / a[1]->value), Interval(0.0));
+            return rules.product(value, *a[0], rules.reciprocal(*a[1]));
+        case Op::square:
+            return rules.chain(value, *a[0], times(Interval(2.0), x), Interval(2.0));
+        case Op::sqrt: {
+            if (!(x.lo > 0)) return Slope::of_value(value);
+            const Interval first = Interval(0.5) / plain(value);
+            return rules.chain(value, *a[0], first, plain(Interval(-0.5) * first / x));
+        }
+        case Op::abs:
+            return rules.absolute(value, *a[0]);
+        case Op::min:
+            return rules.smaller(value, *a[0], *a[1]);
+        case Op::max:
+            return rules.negative(rules.smaller(-value, rules.negative(*a[0]), rules.negative(*a[1])));
+        case Op::hypot:
+            return rules.length(value, *a[0], *a[1]);
+        case Op::r_and:
+            return rules.r_function(value, *a[0], *a[1], -1.0);
+        case Op::r_or:
+            return rules.r_function(value, *a[0], *a[1], 1.0);
+        case Op::exp:
+            return rules.chain(value, *a[0], plain(value), plain(value));
+        case Op::log: {
+            if (!(x.lo > 0)) return Slope::of_value(value);
+            const Interval first = one / x;
+            return rules.chain(value, *a[0], first, -math::square(first));
+        }
+        case Op::sin:
+            return rules.chain(value, *a[0], math::cos(x), -plain(value));
+        case Op::cos:
+            return rules.chain(value, *a[0], -math::sin(x), -plain(value));
+        case Op::atan: {
+            const Interval first = one / (one + math::square(x));
+            return rules.chain(value, *a[0], first, Interval(-2.0) * x * math::square(first));
+        }
+        case Op::pow:
+            if (!a[1]->fixed || a[1]->value.lo != a[1]->value.hi) return Slope::of_value(value);
+            return power(rules, value, *a[0], a[1]->value.lo);
+        case Op::select:
+            return select(rules, value, a);
+        default:
+            return Slope::of_value(value);
+    }
+}
+
+}  // namespace frep
