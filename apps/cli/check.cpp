@@ -1,6 +1,5 @@
-// `frep check`: the mistakes of a model's text, those that only show when its objects are lowered, and what its
-// blends do to the shape.
-// Tested by tests/cli/check.txt.
+// `frep check`: the mistakes of a model's text, those that only show when its objects are lowered, and what
+// its blends do to the shape. Tested by tests/cli/check.txt.
 #include <cctype>
 #include <optional>
 
@@ -70,7 +69,9 @@ Json report(const Diagnostics& findings, const Source& source) {
 std::string called_name(const Source& source, Span span) {
     const std::string_view text = source.text(span);
     std::size_t end = 0;
-    while (end < text.size() && (std::isalnum(static_cast<unsigned char>(text[end])) != 0 || text[end] == '_')) ++end;
+    while (end < text.size() &&
+           (std::isalnum(static_cast<unsigned char>(text[end])) != 0 || text[end] == '_'))
+        ++end;
     return lower_case(text.substr(0, end));
 }
 
@@ -92,29 +93,36 @@ std::optional<Diagnostic> blend_diagnostic(const BlendFinding& found, const Sour
         case BlendFlaw::never_acts:
             d.message = "this blend changes nothing: the shape is that of the plain set operation";
             d.label = "never reaches the surface";
-            d.help = "the two surfaces do not meet where it acts, or what it adds lies inside the rest of the model; "
-                     "check the bounding solid and the extents";
+            d.help =
+                "the two surfaces do not meet where it acts, or what it adds lies inside the rest of the "
+                "model; "
+                "check the bounding solid and the extents";
             return d;
         case BlendFlaw::second_place:
             if (!called_name(source, found.origin).starts_with("hfcontrolblend")) return std::nullopt;
-            d.message = fmt::format("this blend also acts at {}, apart from {}", text(found.place), text(found.first_place));
+            d.message = fmt::format("this blend also acts at {}, apart from {}", text(found.place),
+                                    text(found.first_place));
             d.label = "acts at a second place";
-            d.help = "a blend between control points acts wherever the two surfaces are that near; "
-                     "hfBoundedBlendUni and its relatives choose one place by a bounding solid";
+            d.help =
+                "a blend between control points acts wherever the two surfaces are that near; "
+                "hfBoundedBlendUni and its relatives choose one place by a bounding solid";
             return d;
         case BlendFlaw::through_wall:
-            d.message = fmt::format("the bounding solid of this blend reaches another surface at {}", text(found.place));
+            d.message = fmt::format("the bounding solid of this blend reaches another surface at {}",
+                                    text(found.place));
             d.label = "moves a surface away from the joint";
-            d.help = fmt::format("the joint is near {}; make the bounding solid smaller, cut it with the outer surface, "
-                                 "or blend before the hollow is taken out",
-                                 text(found.first_place));
+            d.help = fmt::format(
+                "the joint is near {}; make the bounding solid smaller, cut it with the outer surface, "
+                "or blend before the hollow is taken out",
+                text(found.first_place));
             return d;
     }
     return std::nullopt;
 }
 
 /// The findings of --blends for the default object with its default parameters, or an exit code.
-int add_blend_findings(const ModelOptions& options, const std::optional<std::string>& bounds, Diagnostics& out) {
+int add_blend_findings(const ModelOptions& options, const std::optional<std::string>& bounds,
+                       Diagnostics& out) {
     std::optional<StatedBounds> stated;
     if (bounds) {
         const auto box = parse_bounds(*bounds);
@@ -141,7 +149,8 @@ int add_blend_findings(const ModelOptions& options, const std::optional<std::str
     if (!field) return fail(field.error());
     BlendCheckOptions check;
     check.bounds = *box;
-    for (int axis = 0; axis < 3; ++axis) check.axes[static_cast<std::size_t>(axis)] = prepared->map.uses(axis);
+    for (int axis = 0; axis < 3; ++axis)
+        check.axes[static_cast<std::size_t>(axis)] = prepared->map.uses(axis);
     check.evaluator = prepared->evaluator;
     const auto findings = check_blends(*field, check, job);
     if (!findings) return fail(findings.error());
@@ -156,10 +165,10 @@ int run_check(Arguments arguments) {
     ModelOptions options;
     std::optional<std::string> bounds;
     bool json = false, blends = false;
-    CommandLine line("check", "check MODEL [options]",
-                     "Parses a model and lowers each of its objects; tells what is wrong, and where.",
-                     {"frep check pot.hf", "frep check pot.hf --json > findings.json",
-                      "frep check pot.hf --blends"});
+    CommandLine line(
+        "check", "check MODEL [options]",
+        "Parses a model and lowers each of its objects; tells what is wrong, and where.",
+        {"frep check pot.hf", "frep check pot.hf --json > findings.json", "frep check pot.hf --blends"});
     line.positional("MODEL", options.input, "HyperFun file, - for standard input");
     line.flag("--json", json, "the findings as one JSON object on standard output");
     line.flag("--blends", blends, "also look at what each blend does to the default object");

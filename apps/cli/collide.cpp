@@ -96,12 +96,13 @@ class CollideRun {
         for (std::size_t axis = 0; axis < 3; ++axis)
             if (axes[axis]) point.push_back(witness[axis]);
         if (texts_.json) {
-            const Json out = {{"schema", "frep.collide/1"},
-                              {"result", name},
-                              {"witness", is_apart ? Json(nullptr) : point_json(found.witness)},
-                              {"depth", is_apart ? Json(nullptr) : json_number(found.depth)},
-                              {"resolution", found.kind == Collision::touching ? Json(found.cell) : Json(nullptr)},
-                              {"cells", found.evaluated}};
+            const Json out = {
+                {"schema", "frep.collide/1"},
+                {"result", name},
+                {"witness", is_apart ? Json(nullptr) : point_json(found.witness)},
+                {"depth", is_apart ? Json(nullptr) : json_number(found.depth)},
+                {"resolution", found.kind == Collision::touching ? Json(found.cell) : Json(nullptr)},
+                {"cells", found.evaluated}};
             if (const int code = print_result(json_bytes(out))) return code;
         } else {
             std::string text = fmt::format("{}: proved\n", name);
@@ -109,9 +110,10 @@ class CollideRun {
                 text = fmt::format("{} at {}, where the smaller function is {}\n", name, point_text(point),
                                    number_text(found.depth));
             if (found.kind == Collision::touching)
-                text = fmt::format("{} near {}: no point inside both was found, and no proof that there is none, "
-                                   "in cells of {}\n",
-                                   name, point_text(point), number_text(found.cell));
+                text = fmt::format(
+                    "{} near {}: no point inside both was found, and no proof that there is none, "
+                    "in cells of {}\n",
+                    name, point_text(point), number_text(found.cell));
             if (const int code = print_result(text)) return code;
         }
         if (found.is_cancelled && found.kind == Collision::touching) {
@@ -132,19 +134,22 @@ class CollideRun {
 
 int run_collide(Arguments arguments) {
     CollideTexts texts;
-    CommandLine line("collide", "collide FIRST SECOND [options]",
-                     "Tells whether two models have points in common: a point inside both, or a proof that they "
-                     "are apart.",
-                     {"frep collide lid.hf pot.hf", "frep collide arm.hf frame.hf --param angle=30 --json",
-                      "frep collide part.hf part.hf --object lid --second-object base"});
+    CommandLine line(
+        "collide", "collide FIRST SECOND [options]",
+        "Tells whether two models have points in common: a point inside both, or a proof that they "
+        "are apart.",
+        {"frep collide lid.hf pot.hf", "frep collide arm.hf frame.hf --param angle=30 --json",
+         "frep collide part.hf part.hf --object lid --second-object base"});
     declare_model_options(line, texts.first);
     line.positional("SECOND", texts.second.input, "HyperFun file of the other model");
     line.text("--second-object", texts.second.object, "NAME", "object of the second model");
     line.text("--second-a", texts.second.values, "V,V,...", "parameters of the second model");
-    line.texts("--second-param", texts.second.named_values, "NAME=V", "one parameter of the second model (repeatable)");
+    line.texts("--second-param", texts.second.named_values, "NAME=V",
+               "one parameter of the second model (repeatable)");
     line.text("--second-map", texts.second.map, "MAP", "map of the second model's coordinates");
     line.text("--bounds", texts.bounds, "BOX", "where to look (default: what the boxes of the models share)");
-    line.text("--tolerance", texts.tolerance, "LENGTH", "cells this small are not divided any more (default 1e-6)");
+    line.text("--tolerance", texts.tolerance, "LENGTH",
+              "cells this small are not divided any more (default 1e-6)");
     line.text("--cells", texts.cells, "N", "undecided cells held at most (default 20000)");
     line.flag("--json", texts.json, "the answer as one JSON object on standard output");
     if (const auto code = line.parse(arguments)) return *code;

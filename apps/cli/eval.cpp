@@ -31,7 +31,8 @@ constexpr double default_tolerance = 1e-6;
 /// Reads lines, evaluates them in batches and prints a line for each.
 class Session {
   public:
-    Session(const PreparedModel& prepared, Wanted wanted, std::unique_ptr<Evaluator> evaluator, double tolerance)
+    Session(const PreparedModel& prepared, Wanted wanted, std::unique_ptr<Evaluator> evaluator,
+            double tolerance)
         : prepared_(prepared),
           boxes_(wanted == Wanted::intervals),
           evaluator_(std::move(evaluator), wanted, prepared.threads, {tolerance, moving(prepared)}) {

@@ -1,5 +1,5 @@
-// `frep measure`: volume, area, centroid, inertia and weight of a shape, each with what is known of its error.
-// Tested by tests/cli/measure.txt.
+// `frep measure`: volume, area, centroid, inertia and weight of a shape, each with what is known of its
+// error. Tested by tests/cli/measure.txt.
 #include <algorithm>
 #include <optional>
 
@@ -117,9 +117,9 @@ class MeasureRun {
         options.relative_error = plan_.relative_error;
         options.max_cells = plan_.cells;
         options.evaluator = prepared_.evaluator;
+        const TimeKeeper keeper(job_, time_limit_);
         {
             ProgressBar bar("measuring");
-            const TimeKeeper keeper(job_, time_limit_);
             job_.on_progress = [&](double share) { bar.update(share); };
             const auto found = measure_shape(*field, options, job_);
             job_.on_progress = nullptr;
@@ -129,10 +129,11 @@ class MeasureRun {
         if (!measure_.is_cancelled) {
             FieldPool fields(**sampled);
             const auto surface = estimate_surface(fields, box_, axes_, plan_.area_cells, job_);
-            if (!surface) return fail(surface.error());
-            surface_ = *surface;
+            if (!surface && !job_.cancelled()) return fail(surface.error());
+            if (surface) surface_ = *surface;
         }
-        if (const int code = options_.json ? print_result(json_bytes(report())) : print_result(text())) return code;
+        if (const int code = options_.json ? print_result(json_bytes(report())) : print_result(text()))
+            return code;
         return judge();
     }
 
@@ -149,20 +150,22 @@ class MeasureRun {
     std::string text() const {
         const std::string_view unit = unit_.name;
         const auto power = [&](int p) { return fmt::format("{}^{}", unit, p); };
-        std::string out = fmt::format("{:<10}{:.7g} +- {:.2g} {}   in {}\n", size_name(), middle(measure_.size),
-                                      half_width(measure_.size), power(dimension_), range_text(measure_.size));
+        std::string out =
+            fmt::format("{:<10}{:.7g} +- {:.2g} {}   in {}\n", size_name(), middle(measure_.size),
+                        half_width(measure_.size), power(dimension_), range_text(measure_.size));
         if (surface_)
-            out += fmt::format("{:<10}{:.7g} {}   estimate, error about {:.2g}\n", surface_name(), surface_->size,
-                               dimension_ == 3 ? power(2) : std::string(unit), surface_->error);
+            out +=
+                fmt::format("{:<10}{:.7g} {}   estimate, error about {:.2g}\n", surface_name(),
+                            surface_->size, dimension_ == 3 ? power(2) : std::string(unit), surface_->error);
         if (plan_.density && dimension_ == 3)
-            out += fmt::format("{:<10}{:.7g} +- {:.2g} g   in {}\n", "weight", middle(mass()), half_width(mass()),
-                               range_text(mass()));
+            out += fmt::format("{:<10}{:.7g} +- {:.2g} g   in {}\n", "weight", middle(mass()),
+                               half_width(mass()), range_text(mass()));
         if (!(measure_.size.hi > 0)) return out + "the shape is empty in the box\n";
         for (std::size_t axis = 0; axis < 3; ++axis) {
             if (!axes_[axis]) continue;
             const Interval& c = measure_.centroid[axis];
-            out += fmt::format("centroid {} {:.7g} +- {:.2g}   in {}\n", "xyz"[axis], middle(c), half_width(c),
-                               range_text(c));
+            out += fmt::format("centroid {} {:.7g} +- {:.2g}   in {}\n", "xyz"[axis], middle(c),
+                               half_width(c), range_text(c));
         }
         constexpr std::string_view names[] = {"xx", "yy", "zz", "xy", "xz", "yz"};
         for (std::size_t k = 0; k < 6; ++k) {
@@ -176,7 +179,8 @@ class MeasureRun {
 
     /// False for a product of inertia with an axis that is not measured, which is 0.
     bool is_in_plane(std::size_t k) const {
-        constexpr std::array<std::array<std::size_t, 2>, 6> axes{{{0, 0}, {1, 1}, {2, 2}, {0, 1}, {0, 2}, {1, 2}}};
+        constexpr std::array<std::array<std::size_t, 2>, 6> axes{
+            {{0, 0}, {1, 1}, {2, 2}, {0, 1}, {0, 2}, {1, 2}}};
         return k < 3 || (axes_[axes[k][0]] && axes_[axes[k][1]]);
     }
 
@@ -214,19 +218,22 @@ class MeasureRun {
     /// Warnings, and the exit code.
     int judge() const {
         if (const std::string sides = side_list(measure_.cut); !sides.empty())
-            print_warning(fmt::format("the box cuts the shape at {}: only what lies in the box is measured", sides));
+            print_warning(
+                fmt::format("the box cuts the shape at {}: only what lies in the box is measured", sides));
         if (measure_.is_reached) return exit_ok;
         if (measure_.is_cancelled) {
             print_error("stopped at the time limit, before the relative error was reached");
             return exit_over_limit;
         }
-        print_error(fmt::format("the relative error {} was not reached: {} cells were looked at, {} are undecided",
-                                number_text(plan_.relative_error), measure_.evaluated, measure_.open));
-        print_help_line(measure_.has_planes
-                            ? "--cells allows more of them, --relative-error asks for less"
-                            : "the function has an operation without derivatives (noise, sums over skeletons, "
-                              "loops that depend on the point), so that only signs count; --cells allows more "
-                              "cells, --relative-error asks for less");
+        print_error(
+            fmt::format("the relative error {} was not reached: {} cells were looked at, {} are undecided",
+                        number_text(plan_.relative_error), measure_.evaluated, measure_.open));
+        print_help_line(
+            measure_.has_planes
+                ? "--cells allows more of them, --relative-error asks for less"
+                : "the function has an operation without derivatives (noise, sums over skeletons, "
+                  "loops that depend on the point), so that only signs count; --cells allows more "
+                  "cells, --relative-error asks for less");
         return exit_check_failed;
     }
 
@@ -248,19 +255,22 @@ class MeasureRun {
 
 int run_measure(Arguments arguments) {
     MeasureOptions options;
-    CommandLine line("measure", "measure MODEL [options]",
-                     "Volume (of a flat shape: area), centroid and inertia from the function itself, each with an "
-                     "interval that surely holds it; the area of the surface as an estimate.",
-                     {"frep measure pot.hf", "frep measure pot.hf --density 2.4 --relative-error 1e-4",
-                      "frep measure pot.hf --param height=70 --json > pot.json"});
+    CommandLine line(
+        "measure", "measure MODEL [options]",
+        "Volume (of a flat shape: area), centroid and inertia from the function itself, each with an "
+        "interval that surely holds it; the area of the surface as an estimate.",
+        {"frep measure pot.hf", "frep measure pot.hf --density 2.4 --relative-error 1e-4",
+         "frep measure pot.hf --param height=70 --json > pot.json"});
     declare_model_options(line, options.model);
     line.text("--relative-error", options.relative_error, "E",
               "half the interval over its middle, of the volume (default 1e-3)");
     line.text("--density", options.density, "G", "grams a cubic centimetre: gives the weight");
     line.text("--bounds", options.bounds, "BOX", "v, or min,max, or ax,bx,ay,by,az,bz (default: found)");
-    line.text("--cells", options.cells, "N", "undecided cells held at most (default 1000000; 20000 with loops "
-                                             "that depend on the point)");
-    line.text("--area-cells", options.area_cells, "N", "cells a side for the estimate of the area (default 128)");
+    line.text("--cells", options.cells, "N",
+              "undecided cells held at most (default 1000000; 20000 with loops "
+              "that depend on the point)");
+    line.text("--area-cells", options.area_cells, "N",
+              "cells a side for the estimate of the area (default 128)");
     line.flag("--json", options.json, "the report as one JSON object on standard output");
     if (const auto code = line.parse(arguments)) return *code;
     const auto plan = plan_measure(options);

@@ -30,7 +30,9 @@ constexpr std::size_t most_findings = 4;
 
 bool is_bounded(Op op) { return op == Op::bounded_uni || op == Op::bounded_int; }
 bool is_by_points(Op op) { return op == Op::point_uni || op == Op::point_int; }
-bool is_blend(Op op) { return is_bounded(op) || is_by_points(op) || op == Op::blend_uni || op == Op::blend_int; }
+bool is_blend(Op op) {
+    return is_bounded(op) || is_by_points(op) || op == Op::blend_uni || op == Op::blend_int;
+}
 bool is_union(Op op) { return op == Op::blend_uni || op == Op::bounded_uni || op == Op::point_uni; }
 
 Field as_field(Graph graph, NodeId root) {
@@ -92,8 +94,8 @@ BlendFields fields_of(const Field& field, NodeId blend) {
     NodeId active = graph.constant(1);
     if (is_by_points(op)) {
         const auto share = [&](std::size_t f, std::size_t a) {
-            const NodeId over = graph.make(
-                Op::div, {renamed[from.arguments(blend)[f]], renamed[from.arguments(blend)[a]]});
+            const NodeId over =
+                graph.make(Op::div, {renamed[from.arguments(blend)[f]], renamed[from.arguments(blend)[a]]});
             return graph.make(Op::square, {over});
         };
         active = graph.make(Op::sub, {active, graph.make(Op::add, {share(0, 3), share(1, 4)})});
@@ -117,12 +119,12 @@ struct Change {
     Index sample{};
     Vec3 place;
     double amount = 0;  ///< how far the two functions are apart
-    std::size_t cell = 0;
 };
 
 class BlendSearch {
   public:
-    BlendSearch(const Field& field, const BlendCheckOptions& options, std::vector<std::size_t> axes, const Job& job)
+    BlendSearch(const Field& field, const BlendCheckOptions& options, std::vector<std::size_t> axes,
+                const Job& job)
         : field_(field), options_(options), axes_(std::move(axes)), job_(job) {
         const Box3& b = options.bounds;
         low_ = {b.min.x, b.min.y, b.min.z};
@@ -142,7 +144,8 @@ class BlendSearch {
         finding.op = field_.graph->node(blend).op;
         finding.origin = field_.graph->origin(blend);
         const BlendFields fields = fields_of(field_, blend);
-        auto whole = make_evaluator(field_, options_.evaluator), plain = make_evaluator(fields.plain, options_.evaluator);
+        auto whole = make_evaluator(field_, options_.evaluator),
+             plain = make_evaluator(fields.plain, options_.evaluator);
         auto activity = make_evaluator(fields.activity, options_.evaluator);
         auto first = make_evaluator(fields.first, options_.evaluator);
         auto second = make_evaluator(fields.second, options_.evaluator);
@@ -162,16 +165,18 @@ class BlendSearch {
             finding.flaw = BlendFlaw::through_wall;
             bool any_joint = false;
             for (std::size_t p = 0; p < parts.size(); ++p) {
-                const bool joint = touches_joint(parts[p], changes, cells, level, **first, **second);
+                const bool joint = touches_joint(parts[p], changes, level, **first, **second);
                 is_unexpected[p] = !joint;
                 any_joint = any_joint || joint;
             }
             if (!any_joint) return {};
         }
         const auto most = [&](const std::vector<std::size_t>& part) {
-            return changes[*std::max_element(part.begin(), part.end(), [&](std::size_t a, std::size_t b) {
-                return changes[a].amount < changes[b].amount;
-            })].place;
+            return changes[*std::max_element(part.begin(), part.end(),
+                                             [&](std::size_t a, std::size_t b) {
+                                                 return changes[a].amount < changes[b].amount;
+                                             })]
+                .place;
         };
         std::vector<BlendFinding> out;
         for (std::size_t p = 0; p < parts.size() && out.size() < most_findings; ++p) {
@@ -185,16 +190,20 @@ class BlendSearch {
     }
 
   private:
-    Interval side(const Index& cell, int level, std::size_t axis, double margin = 0) const {
-        if (!options_.axes[axis]) return 0;
-        const double size = step_ * (1u << (levels - level));
-        return {low_[axis] + size * (cell[axis] - margin), low_[axis] + size * (cell[axis] + 1 + margin)};
-    }
+    /// Side of the cells of a level.
+    double cell_size(int level) const { return step_ * (1u << (levels - level)); }
 
-    std::vector<Interval> ranges(Evaluator& evaluator, std::span<const Index> cells, int level, double margin = 0) const {
+    /// Enclosures over the cells of this size with these indices, widened by `margin` cells on every side.
+    std::vector<Interval> ranges(Evaluator& evaluator, std::span<const Index> cells, double size,
+                                 double margin = 0) const {
         std::array<std::vector<Interval>, 3> columns;
-        for (std::size_t axis = 0; axis < 3; ++axis)
-            for (const Index& cell : cells) columns[axis].push_back(side(cell, level, axis, margin));
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            for (const Index& cell : cells) {
+                const double low = low_[axis] + size * (cell[axis] - margin);
+                const double high = low_[axis] + size * (cell[axis] + 1 + margin);
+                columns[axis].push_back(options_.axes[axis] ? Interval(low, high) : Interval(0));
+            }
+        }
         const Interval* boxes[] = {columns[0].data(), columns[1].data(), columns[2].data()};
         std::vector<Interval> out(cells.size());
         evaluator.intervals(boxes, cells.size(), out.data());
@@ -206,14 +215,16 @@ class BlendSearch {
         std::vector<Index> cells{{0, 0, 0}};
         for (int at = 0;; ++at) {
             std::vector<Index> active;
-            const std::vector<Interval> act = ranges(activity, cells, at);
+            const std::vector<Interval> act = ranges(activity, cells, cell_size(at));
             for (std::size_t i = 0; i < cells.size(); ++i)
                 if (act[i].hi > 0 || act[i].maybe_undefined) active.push_back(cells[i]);
-            const std::vector<Interval> with = ranges(whole, active, at), without = ranges(plain, active, at);
+            const std::vector<Interval> with = ranges(whole, active, cell_size(at)),
+                                        without = ranges(plain, active, cell_size(at));
             cells.clear();
             for (std::size_t i = 0; i < active.size(); ++i) {
                 const bool both_in = with[i].surely_not_negative() && without[i].surely_not_negative();
-                const bool both_out = (with[i].is_empty() || with[i].hi < 0) && (without[i].is_empty() || without[i].hi < 0);
+                const bool both_out =
+                    (with[i].is_empty() || with[i].hi < 0) && (without[i].is_empty() || without[i].hi < 0);
                 if (!both_in && !both_out) cells.push_back(active[i]);
             }
             level = at;
@@ -243,7 +254,8 @@ class BlendSearch {
         return out;
     }
 
-    std::vector<Change> changes_in(const std::vector<Index>& cells, int level, Evaluator& whole, Evaluator& plain) const {
+    std::vector<Change> changes_in(const std::vector<Index>& cells, int level, Evaluator& whole,
+                                   Evaluator& plain) const {
         std::size_t a_cell = 1;
         for (std::size_t k = 0; k < axes_.size(); ++k) a_cell *= samples_a_side;
         std::vector<Change> out;
@@ -268,14 +280,13 @@ class BlendSearch {
         for (std::size_t c = 0; c < cells.size(); ++c) {
             for (std::size_t n = 0; n < a_cell; ++n) {
                 Change change;
-                change.cell = c;
                 std::array<double, 3> p{};
                 std::size_t rest = n;
                 for (const std::size_t axis : axes_) {
                     const auto k = static_cast<std::uint32_t>(rest % samples_a_side);
                     rest /= samples_a_side;
                     change.sample[axis] = cells[c][axis] * samples_a_side + k;
-                    p[axis] = low_[axis] + step_ * (1u << (levels - level)) * (change.sample[axis] + 0.5) / samples_a_side;
+                    p[axis] = low_[axis] + cell_size(level) * (change.sample[axis] + 0.5) / samples_a_side;
                 }
                 change.place = {p[0], p[1], p[2]};
                 batch.push_back(change);
@@ -325,18 +336,19 @@ class BlendSearch {
         return parts;
     }
 
-    /// True when a cell of the part, or just beside it, may hold a point with f1 = f2 = 0.
-    bool touches_joint(const std::vector<std::size_t>& part, const std::vector<Change>& changes,
-                       const std::vector<Index>& cells, int level, Evaluator& first, Evaluator& second) const {
-        std::vector<std::size_t> numbers;
-        for (const std::size_t i : part) numbers.push_back(changes[i].cell);
-        std::sort(numbers.begin(), numbers.end());
-        numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
-        std::vector<Index> own;
-        for (const std::size_t c : numbers) own.push_back(cells[c]);
-        const std::vector<Interval> f1 = ranges(first, own, level, 0.5), f2 = ranges(second, own, level, 0.5);
-        for (std::size_t i = 0; i < own.size(); ++i)
-            if (f1[i].contains(0) && f2[i].contains(0)) return true;
+    /// True when a point with f1 = f2 = 0 may lie within a step of a sample of the part.
+    bool touches_joint(const std::vector<std::size_t>& part, const std::vector<Change>& changes, int level,
+                       Evaluator& first, Evaluator& second) const {
+        constexpr std::size_t batch = 256;
+        const double size = cell_size(level) / samples_a_side;
+        for (std::size_t begin = 0; begin < part.size(); begin += batch) {
+            std::vector<Index> near;
+            for (std::size_t i = begin; i < std::min(begin + batch, part.size()); ++i)
+                near.push_back(changes[part[i]].sample);
+            const std::vector<Interval> f1 = ranges(first, near, size, 1), f2 = ranges(second, near, size, 1);
+            for (std::size_t i = 0; i < near.size(); ++i)
+                if (f1[i].contains(0) && f2[i].contains(0)) return true;
+        }
         return false;
     }
 
@@ -345,13 +357,14 @@ class BlendSearch {
     std::vector<std::size_t> axes_;
     const Job& job_;
     std::array<double, 3> low_{};
-    double step_ = 1;      ///< side of the smallest cells
+    double step_ = 1;       ///< side of the smallest cells
     Index cells_{1, 1, 1};  ///< of the smallest size, along each axis
 };
 
 }  // namespace
 
-Result<std::vector<BlendFinding>> check_blends(const Field& field, const BlendCheckOptions& options, const Job& job) {
+Result<std::vector<BlendFinding>> check_blends(const Field& field, const BlendCheckOptions& options,
+                                               const Job& job) {
     const Box3& box = options.bounds;
     const std::array<double, 3> low{box.min.x, box.min.y, box.min.z}, high{box.max.x, box.max.y, box.max.z};
     std::vector<std::size_t> axes;

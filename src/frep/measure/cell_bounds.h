@@ -1,9 +1,9 @@
-// What is known of a function in a box cell: its sign, or two piecewise linear functions that it lies between.
-// They come from the mean value form (Moore 1966; the partial derivatives one after the other, Hansen 1968):
-// f(x) is in f(c) + sum G_i (x_i - c_i) with G_i an enclosure of the derivative, so that f is within
-// e = sum rad G_i |x_i - c_i| of the plane with the slopes mid G_i: linear in each of the 2^D parts around the
-// middle c. e shrinks with the square of the cell.
-// Tested by tests/unit/measure/cell_bounds_test.cpp.
+// What is known of a function in a box cell: its sign, or two piecewise linear functions that it lies
+// between. They come from the mean value form (Moore 1966; the partial derivatives one after the other,
+// Hansen 1968): f(x) is in f(c) + sum G_i (x_i - c_i) with G_i an enclosure of the derivative, so that f is
+// within e = sum rad G_i |x_i - c_i| of the plane with the slopes mid G_i: linear in each of the 2^D parts
+// around the middle c. e shrinks with the square of the cell. Tested by
+// tests/unit/measure/cell_bounds_test.cpp.
 #pragma once
 
 #include <array>
@@ -34,9 +34,9 @@ struct CellBounds {
     CellSign sign = CellSign::open;
     bool maybe_undefined = false;  ///< of an open cell
     bool has_planes = false;       ///< of an open cell: the bounds below hold
-    /// Bounds of f from below and above on the lattice of the cell's low, middle and high coordinates, linear in
-    /// each Kuhn simplex (clip.h) of the 2^D parts between them; digit k of a number to the base 3 is the place
-    /// along the k-th measured axis. Finite, below 1e150.
+    /// Bounds of f from below and above on the lattice of the cell's low, middle and high coordinates, linear
+    /// in each Kuhn simplex (clip.h) of the 2^D parts between them; digit k of a number to the base 3 is the
+    /// place along the k-th measured axis. Finite, below 1e150.
     std::array<double, 27> lower{}, upper{};
     /// By measured axis: what the derivative along it adds to the gap. A cell is best divided across the
     /// largest.

@@ -97,7 +97,8 @@ MomentSums MomentSums::about(const std::array<double, 3>& point) const {
     return out;
 }
 
-CentralMoments central_moments(const MomentSums& sums, const Cell& box, const std::vector<std::size_t>& axes) {
+CentralMoments central_moments(const MomentSums& sums, const Cell& box,
+                               const std::vector<std::size_t>& axes) {
     CentralMoments out;
     std::array<Interval, 3> shift;  // from the origin of the sums to the centroid
     for (const std::size_t axis : axes) {
@@ -114,8 +115,12 @@ CentralMoments central_moments(const MomentSums& sums, const Cell& box, const st
         central[p] = sums.second[p] - sums.size * product;
         if (i == j) central[p].lo = std::max(central[p].lo, 0.0);
     }
-    out.inertia = {central[1] + central[2], central[0] + central[2], central[0] + central[1],
-                   -central[3],             -central[4],             -central[5]};
+    out.inertia = {central[1] + central[2],
+                   central[0] + central[2],
+                   central[0] + central[1],
+                   -central[3],
+                   -central[4],
+                   -central[5]};
     return out;
 }
 

@@ -139,7 +139,8 @@ PartMoments positive_part_of_lattice(int dimension, std::span<const double> poin
         bool any = false;
         for (std::size_t corner = 0; corner < parts; ++corner) {
             std::size_t point = 0, step = 1;
-            for (std::size_t k = 0; k < d; ++k, step *= 3) point += ((part >> k & 1u) + (corner >> k & 1u)) * step;
+            for (std::size_t k = 0; k < d; ++k, step *= 3)
+                point += ((part >> k & 1u) + (corner >> k & 1u)) * step;
             corners[corner] = points[point];
             any = any || corners[corner] > 0;
         }
@@ -152,8 +153,9 @@ PartMoments positive_part_of_lattice(int dimension, std::span<const double> poin
         for (std::size_t p = 0; p < pairs.size(); ++p) {
             const auto [i, j] = pairs[p];
             if (i >= d || j >= d) continue;
-            out.second[p] += weight * 0.25 *
-                             (side(i) * side(j) * m.share + side(i) * m.first[j] + side(j) * m.first[i] + m.second[p]);
+            out.second[p] +=
+                weight * 0.25 *
+                (side(i) * side(j) * m.share + side(i) * m.first[j] + side(j) * m.first[i] + m.second[p]);
         }
     }
     return out;

@@ -20,8 +20,9 @@ struct PartMoments {
 /// most 6 factors below 1, each within 2^-51 of its own, and a weight.
 inline constexpr double clip_error = 0x1p-44;
 
-/// Moments of the part of the cube of `dimension` (2 or 3) where the function with these values at the corners
-/// is > 0; bit i of a corner's number is its side along axis i. Values must be finite, below 1e150 in size.
+/// Moments of the part of the cube of `dimension` (2 or 3) where the function with these values at the
+/// corners is > 0; bit i of a corner's number is its side along axis i. Values must be finite, below 1e150 in
+/// size.
 PartMoments positive_part(int dimension, std::span<const double> corners);
 
 /// The same for a function with these values on the lattice 3^D of the coordinates -1, 0, 1, linear in the

@@ -48,7 +48,11 @@ class Search {
   public:
     Search(CellJudge judge, std::unique_ptr<Evaluator> values, const CollideOptions& options,
            std::vector<std::size_t> axes, const Job& job)
-        : judge_(std::move(judge)), values_(std::move(values)), options_(options), axes_(std::move(axes)), job_(job) {}
+        : judge_(std::move(judge)),
+          values_(std::move(values)),
+          options_(options),
+          axes_(std::move(axes)),
+          job_(job) {}
 
     CollideResult run() {
         const Box3& b = options_.bounds;
@@ -142,9 +146,9 @@ class Search {
             return out_;
         }
         out_.kind = Collision::touching;
-        const auto best = std::max_element(open_.begin(), open_.end(), [](const OpenCell& a, const OpenCell& b) {
-            return a.value < b.value;
-        });
+        const auto best =
+            std::max_element(open_.begin(), open_.end(),
+                             [](const OpenCell& a, const OpenCell& b) { return a.value < b.value; });
         if (best != open_.end()) {
             out_.witness = {best->cell.middle(0), best->cell.middle(1), best->cell.middle(2)};
             out_.depth = best->value;

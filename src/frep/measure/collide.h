@@ -29,9 +29,9 @@ struct CollideOptions {
 
 struct CollideResult {
     Collision kind = Collision::apart;
-    Vec3 witness;           ///< the best point found; the middle of an undecided cell where they touch
-    double depth = 0;       ///< min(fA, fB) there
-    double cell = 0;        ///< touching: the longest side of the cells that are left
+    Vec3 witness;      ///< the best point found; the middle of an undecided cell where they touch
+    double depth = 0;  ///< min(fA, fB) there
+    double cell = 0;   ///< touching: the longest side of the cells that are left
     bool is_cancelled = false;
     std::size_t evaluated = 0;  ///< cells looked at
 };

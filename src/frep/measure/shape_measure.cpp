@@ -62,8 +62,8 @@ class JudgePool {
 /// A cell that is not settled.
 struct Leaf {
     CellPart part;
-    double width = 0;           ///< of the cell's contribution to the size, about
-    std::uint8_t divided = 0;   ///< bit k: the k-th measured axis is divided next; none: it is small enough
+    double width = 0;          ///< of the cell's contribution to the size, about
+    std::uint8_t divided = 0;  ///< bit k: the k-th measured axis is divided next; none: it is small enough
     bool maybe_undefined = false;
 };
 
@@ -112,7 +112,8 @@ class Measuring {
     bool divide(double excess, double missing) {
         std::vector<std::size_t> order(leaves_.size());
         std::iota(order.begin(), order.end(), std::size_t{0});
-        std::erase_if(order, [&](std::size_t i) { return leaves_[i].divided == 0 || !(leaves_[i].width > 0); });
+        std::erase_if(order,
+                      [&](std::size_t i) { return leaves_[i].divided == 0 || !(leaves_[i].width > 0); });
         std::stable_sort(order.begin(), order.end(),
                          [&](std::size_t a, std::size_t b) { return leaves_[a].width > leaves_[b].width; });
         const double wanted = std::min(share_a_round * missing, 1.5 * excess);
@@ -198,14 +199,29 @@ class Measuring {
             leaf.width = leaf.part.rest * measuring::cell_size(cells[i], axes_).hi;
             leaf.divided = divided_axes(cells[i], bounds[i]);
             leaf.maybe_undefined = bounds[i].maybe_undefined;
+            if (bounds[i].has_planes) note_cut(cells[i], bounds[i]);
             leaves_.push_back(leaf);
         }
     }
 
+    /// Notes the sides of the box that a cell inside reaches.
     void note_cut(const Cell& cell) {
         for (const std::size_t axis : axes_) {
             if (cell.low[axis] == box_.low[axis]) out_.cut[2 * axis] = true;
             if (cell.high[axis] == box_.high[axis]) out_.cut[2 * axis + 1] = true;
+        }
+    }
+
+    /// The same for an open cell: the sides where a point of its lattice is surely inside.
+    void note_cut(const Cell& cell, const CellBounds& bounds) {
+        const std::size_t points = axes_.size() == 2 ? 9 : 27;
+        for (std::size_t point = 0; point < points; ++point) {
+            if (!(bounds.lower[point] > 0)) continue;
+            for (std::size_t k = 0, digits = point; k < axes_.size(); ++k, digits /= 3) {
+                const std::size_t axis = axes_[k];
+                if (digits % 3 == 0 && cell.low[axis] == box_.low[axis]) out_.cut[2 * axis] = true;
+                if (digits % 3 == 2 && cell.high[axis] == box_.high[axis]) out_.cut[2 * axis + 1] = true;
+            }
         }
     }
 

@@ -32,16 +32,17 @@ struct ShapeMeasure {
     /// About the centroid: integrals of y^2 + z^2, x^2 + z^2, x^2 + y^2, then of -xy, -xz, -yz; in the plane
     /// the third is the polar one. Model units to the 5th (4th).
     std::array<math::Interval, 6> inertia;
-    bool is_reached = false;    ///< the size is within the relative error
-    bool is_cancelled = false;  ///< the job was cancelled; what was reached until then
-    bool has_planes = false;    ///< linear bounds were used, not signs alone
+    bool is_reached = false;       ///< the size is within the relative error
+    bool is_cancelled = false;     ///< the job was cancelled; what was reached until then
+    bool has_planes = false;       ///< linear bounds were used, not signs alone
     bool maybe_undefined = false;  ///< F may be undefined in an undecided cell; such points count as outside
     std::array<bool, 6> cut{};     ///< sides -x +x -y +y -z +z of the box that the shape surely reaches
     std::size_t evaluated = 0;     ///< cells looked at
     std::size_t open = 0;          ///< cells in which the shape's share is not fully known
 };
 
-/// The default of max_cells: fewer for a field with loops that depend on the point, whose enclosures are dear.
+/// The default of max_cells: fewer for a field with loops that depend on the point, whose enclosures are
+/// dear.
 std::size_t most_cells(const Field& field);
 
 /// Measures `field`, a field of x, y, z (field_in_space()). The same bytes for any number of threads; a

@@ -60,7 +60,8 @@ double level_size(std::span<const Point> at, std::span<const double> f) {
     for (std::size_t i = 0; i < in; ++i) {
         for (std::size_t o = 0; o < out; ++o) {
             const double a = f[inside[i]], b = f[outside[o]];
-            crossing[count++] = vec(at[inside[i]]) + (vec(at[outside[o]]) - vec(at[inside[i]])) * (a / (a - b));
+            crossing[count++] =
+                vec(at[inside[i]]) + (vec(at[outside[o]]) - vec(at[inside[i]])) * (a / (a - b));
         }
     }
     if (count == 2) return length(crossing[1] - crossing[0]);

@@ -1,7 +1,7 @@
 // The area of a surface (the length of an outline) from samples: an estimate. The level set F = 0 of the
 // function that is linear in the Kuhn simplices of a lattice (marching tetrahedra, Doi and Koide 1991) is
-// measured on a lattice and on one of twice its step; their difference tells how far the finer one may be off.
-// Tested by tests/unit/measure/surface_size_test.cpp.
+// measured on a lattice and on one of twice its step; their difference tells how far the finer one may be
+// off. Tested by tests/unit/measure/surface_size_test.cpp.
 #pragma once
 
 #include <array>

@@ -42,9 +42,10 @@ double between(const std::array<double, 27>& points, std::array<double, 3> u) {
 }  // namespace
 
 TEST_CASE("linear bounds hold at every point") {
-    for (const char* body : {"my_model = 1 - x[1]^2 - x[2]^2 - x[3]^2;", "my_model = sin(3*x[1])*x[2] + x[3]*x[1];",
-                             "my_model = (1 - x[1]^2 - x[2]^2) & (0.5 - x[3]*x[1]);",
-                             "my_model = max(min(x[1], x[2]), 0.3 - abs(x[3]));"}) {
+    for (const char* body :
+         {"my_model = 1 - x[1]^2 - x[2]^2 - x[3]^2;", "my_model = sin(3*x[1])*x[2] + x[3]*x[1];",
+          "my_model = (1 - x[1]^2 - x[2]^2) & (0.5 - x[3]*x[1]);",
+          "my_model = max(min(x[1], x[2]), 0.3 - abs(x[3]));"}) {
         CAPTURE(body);
         const Field field = space_field_of(body);
         auto judge = CellJudge::make(field, {0, 1, 2}, {});
@@ -88,7 +89,8 @@ TEST_CASE("the gap between the bounds shrinks with the square of the cell") {
     auto judge = CellJudge::make(space_field_of("my_model = 1 - x[1]^2 - x[2]^2 - x[3]^2;"), {0, 1, 2}, {});
     REQUIRE(judge);
     const auto gap = [&](double half) {
-        const CellBounds b = bounds_in(*judge, {{0.6 - half, -half, 0.8 - half}, {0.6 + half, half, 0.8 + half}});
+        const CellBounds b =
+            bounds_in(*judge, {{0.6 - half, -half, 0.8 - half}, {0.6 + half, half, 0.8 + half}});
         REQUIRE(b.has_planes);
         return b.upper[0] - b.lower[0];
     };
@@ -98,7 +100,8 @@ TEST_CASE("the gap between the bounds shrinks with the square of the cell") {
 }
 
 TEST_CASE("without derivatives signs are found, and no planes") {
-    auto judge = CellJudge::make(space_field_of("my_model = hfA_Turbulence(x, 1) + 30 - x[1]^2;"), {0, 1, 2}, {});
+    auto judge =
+        CellJudge::make(space_field_of("my_model = hfA_Turbulence(x, 1) + 30 - x[1]^2;"), {0, 1, 2}, {});
     REQUIRE(judge);
     CHECK_FALSE(judge->has_derivatives());
     CHECK(bounds_in(*judge, {{0, 0, 0}, {0.1, 0.1, 0.1}}).sign == CellSign::inside);
@@ -115,8 +118,8 @@ TEST_CASE("a cell where the function may be undefined or jump has no planes") {
     CHECK(root.maybe_undefined);
     CHECK_FALSE(root.has_planes);
     CHECK(bounds_in(*judge, {{-2, 0, 0}, {-1, 1, 1}}).sign == CellSign::outside);
-    auto steps = CellJudge::make(space_field_of("f = x[2] - 3; if (x[1] < 0.5) then f = x[2]; endif; my_model = f;"),
-                                 {0, 1, 2}, {});
+    auto steps = CellJudge::make(
+        space_field_of("f = x[2] - 3; if (x[1] < 0.5) then f = x[2]; endif; my_model = f;"), {0, 1, 2}, {});
     REQUIRE(steps);
     CHECK_FALSE(bounds_in(*steps, {{0, -1, -1}, {1, 1, 1}}).has_planes);
 }

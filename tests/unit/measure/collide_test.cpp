@@ -20,7 +20,8 @@ CollideResult collided(const std::string& a, const std::string& b, double tolera
 }
 
 std::string ball(double x, double r) {
-    return "my_model = " + std::to_string(r * r) + " - (x[1] - (" + std::to_string(x) + "))^2 - x[2]^2 - x[3]^2;";
+    return "my_model = " + std::to_string(r * r) + " - (x[1] - (" + std::to_string(x) +
+           "))^2 - x[2]^2 - x[3]^2;";
 }
 
 }  // namespace

@@ -51,8 +51,10 @@ TEST_CASE("known volumes lie in the interval, which is as narrow as asked") {
              Known{"my_model = 1 - x[1]^2 - x[2]^2 - x[3]^2;", 1.3, 4 * pi / 3},
              Known{"my_model = (1-x[1]^2) & (0.49-x[2]^2) & (0.25-x[3]^2);", 1.3, 2 * 1.4 * 1},
              Known{"array c[3]; c = [0,0,0]; my_model = hfTorusZ(x, c, 1, 0.4);", 1.7, 2 * pi * pi * 0.16},
-             Known{"array c[3]; c = [0.1,0,0]; my_model = hfEllipsoid(x, c, 1.1, 0.5, 0.8);", 1.5, 4 * pi / 3 * 1.1 * 0.5 * 0.8},
-             Known{"array c[3]; c = [0,0,0]; my_model = hfCylinderZ(x, c, 0.5) & (1-x[3]) & (x[3]+1);", 1.2, 2 * pi * 0.25},
+             Known{"array c[3]; c = [0.1,0,0]; my_model = hfEllipsoid(x, c, 1.1, 0.5, 0.8);", 1.5,
+                   4 * pi / 3 * 1.1 * 0.5 * 0.8},
+             Known{"array c[3]; c = [0,0,0]; my_model = hfCylinderZ(x, c, 0.5) & (1-x[3]) & (x[3]+1);", 1.2,
+                   2 * pi * 0.25},
              // Steinmetz's solid of two cylinders: 16/3 r^3
              Known{"my_model = min(1-x[1]^2-x[2]^2, 1-x[1]^2-x[3]^2);", 1.1, 16.0 / 3},
              // a ball with a quarter taken out
@@ -71,16 +73,18 @@ TEST_CASE("known volumes lie in the interval, which is as narrow as asked") {
 
 TEST_CASE("a flat side is exact, in few cells") {
     // a box whose sides are planes through no cell boundary, in min form
-    const ShapeMeasure m = measured(
-        space_field_of("my_model = min(min(0.71-abs(x[1]), 0.37-abs(x[2])), 0.53-abs(x[3]));"), Box3::cube(1));
+    const ShapeMeasure m =
+        measured(space_field_of("my_model = min(min(0.71-abs(x[1]), 0.37-abs(x[2])), 0.53-abs(x[3]));"),
+                 Box3::cube(1));
     CHECK(holds(m.size, 8 * 0.71 * 0.37 * 0.53));
     CHECK(m.evaluated < 40'000);
 }
 
 TEST_CASE("inertia of an ellipsoid about its centroid") {
     const double a = 1.1, b = 0.5, c = 0.8, x = 3, y = -2, z = 0.5;
-    const ShapeMeasure m = measured(space_field_of("array c[3]; c = [3,-2,0.5]; my_model = hfEllipsoid(x, c, 1.1, 0.5, 0.8);"),
-                                    {{x - 1.2, y - 0.6, z - 0.9}, {x + 1.2, y + 0.6, z + 0.9}});
+    const ShapeMeasure m =
+        measured(space_field_of("array c[3]; c = [3,-2,0.5]; my_model = hfEllipsoid(x, c, 1.1, 0.5, 0.8);"),
+                 {{x - 1.2, y - 0.6, z - 0.9}, {x + 1.2, y + 0.6, z + 0.9}});
     const double mass = 4 * pi / 3 * a * b * c;
     CHECK(holds(m.centroid[0], x));
     CHECK(holds(m.centroid[1], y));
@@ -98,8 +102,9 @@ TEST_CASE("inertia of an ellipsoid about its centroid") {
 
 TEST_CASE("products of inertia have their sign") {
     // a bar along the diagonal of x and y: xy > 0 on it, so that the product -xy is negative
-    const ShapeMeasure m = measured(
-        space_field_of("my_model = min(min(1-abs(x[1]+x[2]), 0.2-abs(x[1]-x[2])), 0.1-abs(x[3]));"), Box3::cube(1));
+    const ShapeMeasure m =
+        measured(space_field_of("my_model = min(min(1-abs(x[1]+x[2]), 0.2-abs(x[1]-x[2])), 0.1-abs(x[3]));"),
+                 Box3::cube(1));
     // u = x+y in -1..1, v = x-y in -0.2..0.2, dx dy = du dv/2, xy = (u^2-v^2)/4
     const double product = 0.2 / 8 * (0.4 * 2.0 / 3 - 2 * (2 * 0.008 / 3));
     CHECK(holds(m.size, 0.2 * 0.4));
@@ -108,7 +113,8 @@ TEST_CASE("products of inertia have their sign") {
 }
 
 TEST_CASE("the centroid of half a ball") {
-    const ShapeMeasure m = measured(space_field_of("my_model = min(1-x[1]^2-x[2]^2-x[3]^2, x[3]);"), Box3::cube(1.25));
+    const ShapeMeasure m =
+        measured(space_field_of("my_model = min(1-x[1]^2-x[2]^2-x[3]^2, x[3]);"), Box3::cube(1.25));
     CHECK(holds(m.centroid[2], 3.0 / 8));
     CHECK(m.centroid[2].hi - m.centroid[2].lo < 2e-3);
     CHECK(holds(m.centroid[0], 0));
@@ -148,7 +154,8 @@ TEST_CASE("empty and full boxes") {
 }
 
 TEST_CASE("undefined parts count as outside") {
-    // sqrt(x) has no value for x < 0: a quarter of the box, x > 0 and y < sqrt(x)... F >= 0 where y <= sqrt(x)
+    // sqrt(x) has no value for x < 0: a quarter of the box, x > 0 and y < sqrt(x)... F >= 0 where y <=
+    // sqrt(x)
     const ShapeMeasure m =
         measured_flat(space_field_of("my_model = sqrt(x[1]) - x[2];", 2), {{-1, 0, 0}, {1, 1, 0}}, 2e-3);
     CHECK(holds(m.size, 2.0 / 3));
@@ -158,14 +165,16 @@ TEST_CASE("undefined parts count as outside") {
 }
 
 TEST_CASE("a function that jumps") {
-    const ShapeMeasure m = measured_flat(
-        space_field_of("f = -1; if (x[1] < 0.3) then f = 1; endif; my_model = f;", 2), {{0, 0, 0}, {1, 1, 0}}, 1e-3);
+    const ShapeMeasure m =
+        measured_flat(space_field_of("f = -1; if (x[1] < 0.3) then f = 1; endif; my_model = f;", 2),
+                      {{0, 0, 0}, {1, 1, 0}}, 1e-3);
     CHECK(holds(m.size, 0.3));
     CHECK(m.is_reached);
 }
 
 TEST_CASE("what cannot be reached is told with the interval that was") {
-    const ShapeMeasure m = measured(space_field_of("my_model = 1 - x[1]^2 - x[2]^2 - x[3]^2;"), Box3::cube(1.3), 1e-5, 500);
+    const ShapeMeasure m =
+        measured(space_field_of("my_model = 1 - x[1]^2 - x[2]^2 - x[3]^2;"), Box3::cube(1.3), 1e-5, 500);
     CHECK(holds(m.size, 4 * pi / 3));
     CHECK_FALSE(m.is_reached);
     CHECK(m.open <= 500);
@@ -187,7 +196,9 @@ TEST_CASE("a cancelled job gives what was reached") {
 }
 
 TEST_CASE("the same bytes for any number of threads") {
-    const Field field = space_field_of("array c[3]; c = [0,0,0]; my_model = hfTorusZ(x, c, 1, 0.4) | (0.36 - (x[1]-1)^2 - x[2]^2 - x[3]^2);");
+    const Field field = space_field_of(
+        "array c[3]; c = [0,0,0]; my_model = hfTorusZ(x, c, 1, 0.4) | (0.36 - (x[1]-1)^2 - x[2]^2 - "
+        "x[3]^2);");
     const ShapeMeasure one = measured(field, Box3::cube(2), 2e-2, 0, 1);
     for (const int threads : {2, 5}) {
         const ShapeMeasure other = measured(field, Box3::cube(2), 2e-2, 0, threads);

@@ -36,7 +36,8 @@ TEST_CASE("known areas and lengths are within the estimated error") {
     for (const Known& known : {
              Known{"my_model = 1 - x[1]^2 - x[2]^2 - x[3]^2;", false, 4 * pi},
              Known{"my_model = 1 - sqrt(x[1]^2 + x[2]^2 + x[3]^2);", false, 4 * pi},
-             Known{"array c[3]; c = [0,0,0]; my_model = hfTorusZ(x, c, 0.8, 0.3);", false, 4 * pi * pi * 0.24},
+             Known{"array c[3]; c = [0,0,0]; my_model = hfTorusZ(x, c, 0.8, 0.3);", false,
+                   4 * pi * pi * 0.24},
              Known{"my_model = min(min(0.71-abs(x[1]), 0.37-abs(x[2])), 0.53-abs(x[3]));", false,
                    8 * (0.71 * 0.37 + 0.71 * 0.53 + 0.37 * 0.53)},
              Known{"my_model = 1 - x[1]^2 - x[2]^2;", true, 2 * pi},
@@ -51,7 +52,8 @@ TEST_CASE("known areas and lengths are within the estimated error") {
 
 TEST_CASE("the same bits for any number of threads") {
     const char* body = "my_model = 1 - x[1]^2 - x[2]^2 - x[3]^2;";
-    const SurfaceSize one = estimated(body, Box3::cube(1.2), false, 1), more = estimated(body, Box3::cube(1.2), false, 3);
+    const SurfaceSize one = estimated(body, Box3::cube(1.2), false, 1),
+                      more = estimated(body, Box3::cube(1.2), false, 3);
     CHECK(one.size == more.size);
     CHECK(one.error == more.error);
 }
