@@ -386,7 +386,16 @@ Result<std::vector<BlendFinding>> check_blends(const Field& field, const BlendCh
     });
     if (job.cancelled()) return Error{ErrorKind::cancelled, "cancelled"};
     std::vector<BlendFinding> out;
-    for (const auto& list : found) out.insert(out.end(), list.begin(), list.end());
+    for (std::size_t i = 0; i < blends.size(); ++i) {
+        // a place of the text that is used several times acts if it acts once, and is told of once
+        bool is_told = false;
+        for (std::size_t j = 0; j < blends.size() && !found[i].empty(); ++j) {
+            if (field.graph->origin(blends[i]) != field.graph->origin(blends[j])) continue;
+            const bool acts = found[j].empty() || found[j][0].flaw != BlendFlaw::never_acts;
+            is_told = is_told || (found[i][0].flaw == BlendFlaw::never_acts && (acts || j < i));
+        }
+        if (!is_told) out.insert(out.end(), found[i].begin(), found[i].end());
+    }
     return out;
 }
 

@@ -25,7 +25,7 @@ inline Field space_field_of(const std::string& body, int coordinates = 3) {
     return *field;
 }
 
-/// True when the interval holds the number and is at most twice this share of it wide.
+/// True when the interval holds the number.
 inline bool holds(const math::Interval& v, double number) { return v.lo <= number && number <= v.hi; }
 
 }  // namespace frep::test

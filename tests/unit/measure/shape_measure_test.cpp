@@ -1,6 +1,7 @@
 // Sizes, centroids and moments of inertia of shapes with known ones.
 #include "frep/measure/shape_measure.h"
 
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <numbers>
@@ -199,9 +200,9 @@ TEST_CASE("the same bytes for any number of threads") {
     const Field field = space_field_of(
         "array c[3]; c = [0,0,0]; my_model = hfTorusZ(x, c, 1, 0.4) | (0.36 - (x[1]-1)^2 - x[2]^2 - "
         "x[3]^2);");
-    const ShapeMeasure one = measured(field, Box3::cube(2), 2e-2, 0, 1);
+    const ShapeMeasure one = measured(field, Box3::cube(2), 0.1, 0, 1);
     for (const int threads : {2, 5}) {
-        const ShapeMeasure other = measured(field, Box3::cube(2), 2e-2, 0, threads);
+        const ShapeMeasure other = measured(field, Box3::cube(2), 0.1, 0, threads);
         CHECK(std::memcmp(&one.size, &other.size, sizeof(Interval)) == 0);
         CHECK(one.evaluated == other.evaluated);
         for (std::size_t k = 0; k < 6; ++k) {
@@ -209,6 +210,31 @@ TEST_CASE("the same bytes for any number of threads") {
             CHECK(one.inertia[k].hi == other.inertia[k].hi);
         }
     }
+}
+
+TEST_CASE("the sides where the box cuts a shape") {
+    const ShapeMeasure m = measured(space_field_of("my_model = -x[3];"), Box3::cube(2));
+    CHECK(m.cut == std::array<bool, 6>{true, true, true, true, true, false});
+    CHECK(holds(m.size, 32));
+}
+
+TEST_CASE("a part of the gallery: the volume of its mesh lies in the interval") {
+    const auto model = compile_file(FREP_SOURCE_DIR "/examples/csg-part.hf");
+    REQUIRE(model);
+    const auto field = model->field();
+    REQUIRE(field);
+    const Box3 box{{-66, -40, -4}, {66, 40, 118}};
+    const auto space = field_in_space(*field, AxisMap::standard(3));
+    REQUIRE(space);
+    const ShapeMeasure m = measured(*space, box, 0.05);
+    CHECK(m.is_reached);
+    ContourOptions options;
+    options.bounds = box;
+    const auto mesh = contour(*field, options);
+    REQUIRE(mesh);
+    const MeshReport report = check(mesh->mesh, {}, {});
+    REQUIRE(report.volume);
+    CHECK(holds(m.size, *report.volume));
 }
 
 TEST_CASE("wrong boxes are refused") {
