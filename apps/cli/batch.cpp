@@ -37,6 +37,7 @@ struct BatchEvaluator::Worker {
     void compute(Wanted wanted, const Columns& columns, std::size_t begin, std::size_t count);
     void compute_intervals(const Columns& columns, std::size_t begin, std::size_t count);
     void print(Wanted wanted, std::size_t begin, std::size_t count);
+    void print_classes(const Classification& classification, std::size_t begin, std::size_t count);
 };
 
 void BatchEvaluator::Worker::compute(Wanted wanted, const Columns& columns, std::size_t begin,
@@ -50,7 +51,7 @@ void BatchEvaluator::Worker::compute(Wanted wanted, const Columns& columns, std:
         targets.push_back(output.data());
     }
     evaluator->values(inputs, count, targets);
-    if (wanted != Wanted::gradients) return;
+    if (wanted == Wanted::values) return;
     values.resize(count);
     partials.resize(columns.size());
     targets.clear();
@@ -97,8 +98,25 @@ void BatchEvaluator::Worker::print(Wanted wanted, std::size_t begin, std::size_t
     }
 }
 
-BatchEvaluator::BatchEvaluator(std::unique_ptr<Evaluator> evaluator, Wanted wanted, int threads)
-    : wanted_(wanted) {
+void BatchEvaluator::Worker::print_classes(const Classification& classification, std::size_t begin,
+                                           std::size_t count) {
+    std::vector<double> gradient;
+    for (std::size_t p = 0; p < count; ++p) {
+        gradient.clear();
+        for (std::size_t i = 0; i < partials.size(); ++i)
+            if (classification.moving[i]) gradient.push_back(partials[i][p]);
+        const double value = outputs[0][p];
+        result.text += to_string(membership(value, gradient, classification.tolerance));
+        result.text += '\n';
+        if (!std::isnan(value)) continue;
+        ++result.undefined;
+        if (!result.first) result.first = FirstUndefined{begin + p, 0};
+    }
+}
+
+BatchEvaluator::BatchEvaluator(std::unique_ptr<Evaluator> evaluator, Wanted wanted, int threads,
+                               Classification classification)
+    : wanted_(wanted), classification_(std::move(classification)) {
     for (int t = 1; t < threads; ++t) {
         workers_.push_back(std::make_unique<Worker>());
         workers_.back()->evaluator = evaluator->clone();
@@ -118,7 +136,10 @@ void BatchEvaluator::run_slice(Worker& worker, const Columns& columns, std::size
             for (const math::Interval& f : worker.enclosures) append_interval(worker.result.text, f);
         } else {
             worker.compute(wanted_, columns, begin, end - begin);
-            worker.print(wanted_, begin, end - begin);
+            if (wanted_ == Wanted::classes)
+                worker.print_classes(classification_, begin, end - begin);
+            else
+                worker.print(wanted_, begin, end - begin);
         }
     } catch (...) {
         worker.failure = std::current_exception();

@@ -16,6 +16,13 @@ enum class Wanted {
     values,     ///< F and the attributes
     gradients,  ///< the same and the partial derivatives of F
     intervals,  ///< enclosures of F
+    classes,    ///< in, on or out
+};
+
+/// What Wanted::classes needs to know.
+struct Classification {
+    double tolerance = 0;      ///< of "on", model units
+    std::vector<bool> moving;  ///< by coordinate: false for frozen ones, along which no distance is measured
 };
 
 /// Where the first undefined value of a batch stands.
@@ -37,7 +44,8 @@ using Columns = std::vector<std::vector<double>>;
 class BatchEvaluator {
   public:
     /// Takes the evaluator over and clones it for the other threads.
-    BatchEvaluator(std::unique_ptr<Evaluator> evaluator, Wanted wanted, int threads);
+    BatchEvaluator(std::unique_ptr<Evaluator> evaluator, Wanted wanted, int threads,
+                   Classification classification = {});
     ~BatchEvaluator();
     BatchResult run(const Columns& columns, std::size_t count);
 
@@ -47,6 +55,7 @@ class BatchEvaluator {
 
     std::vector<std::unique_ptr<Worker>> workers_;
     Wanted wanted_;
+    Classification classification_;
 };
 
 }  // namespace frep::cli

@@ -136,6 +136,7 @@ std::optional<int> CommandLine::apply_common() {
         const auto seconds = parse_duration(*common_.time_limit);
         if (!seconds) return usage_error("--time-limit: " + seconds.error().message);
         budget.seconds = *seconds;
+        time_seconds_ = *seconds;
     }
     if (common_.memory_limit) {
         const auto bytes = parse_size(*common_.memory_limit);

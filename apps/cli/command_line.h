@@ -45,6 +45,8 @@ class CommandLine {
 
     /// The value of --memory-limit in bytes, after parse().
     std::optional<std::size_t> memory_limit() const { return memory_bytes_; }
+    /// The value of --time-limit in seconds, after parse().
+    std::optional<double> time_limit() const { return time_seconds_; }
 
   private:
     std::optional<int> refuse_extras();
@@ -54,6 +56,7 @@ class CommandLine {
     std::unique_ptr<Parser> parser_;
     CommonOptions common_;
     std::optional<std::size_t> memory_bytes_;
+    std::optional<double> time_seconds_;
 };
 
 }  // namespace frep::cli

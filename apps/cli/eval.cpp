@@ -20,19 +20,22 @@ namespace {
 
 struct EvalOptions {
     ModelOptions model;
-    std::optional<std::string> points, intervals, bounds;
-    bool gradient = false;
+    std::optional<std::string> points, intervals, bounds, tolerance;
+    bool gradient = false, classify = false;
 };
 
 constexpr std::size_t batch_size = 16384;
+/// Of --classify, model units.
+constexpr double default_tolerance = 1e-6;
 
 /// Reads lines, evaluates them in batches and prints a line for each.
 class Session {
   public:
-    Session(const PreparedModel& prepared, Wanted wanted, std::unique_ptr<Evaluator> evaluator)
+    Session(const PreparedModel& prepared, Wanted wanted, std::unique_ptr<Evaluator> evaluator,
+            double tolerance)
         : prepared_(prepared),
           boxes_(wanted == Wanted::intervals),
-          evaluator_(std::move(evaluator), wanted, prepared.threads) {
+          evaluator_(std::move(evaluator), wanted, prepared.threads, {tolerance, moving(prepared)}) {
         columns_.resize(prepared.map.coordinates.size() * numbers_a_coordinate());
         for (std::size_t i = 0; i < prepared.map.coordinates.size(); ++i) {
             const MappedCoordinate& c = prepared.map.coordinates[i];
@@ -54,6 +57,14 @@ class Session {
     }
 
   private:
+    /// The coordinates that lines of points can change.
+    static std::vector<bool> moving(const PreparedModel& prepared) {
+        std::vector<bool> out;
+        for (const MappedCoordinate& c : prepared.map.coordinates)
+            out.push_back(!prepared.map_given || c.axis >= 0);
+        return out;
+    }
+
     std::size_t numbers_a_coordinate() const { return boxes_ ? 2 : 1; }
 
     int take_lines(LineReader& reader) {
@@ -147,6 +158,9 @@ std::string contradiction(const EvalOptions& options) {
     if (!options.points && !options.intervals)
         return "give --points FILE or --intervals FILE (- for standard input)";
     if (options.gradient && options.intervals) return "--gradient needs --points";
+    if (options.classify && options.intervals) return "--classify needs --points";
+    if (options.classify && options.gradient) return "give either --classify or --gradient";
+    if (options.tolerance && !options.classify) return "--tolerance needs --classify";
     if (options.model.input == "-" && options.points.value_or(options.intervals.value_or("")) == "-")
         return "the model and the points cannot both come from standard input";
     return {};
@@ -159,18 +173,26 @@ int evaluate(const EvalOptions& options) {
             return usage_error("--bounds: " + box.error().message);
         print_warning("--bounds has no effect on eval");
     }
+    double tolerance = default_tolerance;
+    if (options.tolerance) {
+        const auto given = parse_positive(*options.tolerance);
+        if (!given) return usage_error("--tolerance: " + given.error().message);
+        tolerance = *given;
+    }
     int code = exit_ok;
     auto prepared = prepare_model(options.model, code);
     if (!prepared) return code;
-    prepared->evaluator.attributes = prepared->header().declares_attributes && !options.intervals;
+    prepared->evaluator.attributes =
+        prepared->header().declares_attributes && !options.intervals && !options.classify;
     auto evaluator = make_evaluator(prepared->field(), prepared->evaluator);
     if (!evaluator) return fail(evaluator.error());
     LineReader reader(options.intervals ? *options.intervals : *options.points);
     if (!reader.status()) return fail(reader.status().error());
     const Wanted wanted = options.intervals  ? Wanted::intervals
+                          : options.classify ? Wanted::classes
                           : options.gradient ? Wanted::gradients
                                              : Wanted::values;
-    return Session(*prepared, wanted, std::move(*evaluator)).run(reader);
+    return Session(*prepared, wanted, std::move(*evaluator), tolerance).run(reader);
 }
 
 }  // namespace
@@ -186,6 +208,9 @@ int run_eval(Arguments arguments) {
     line.text("--points", options.points, "FILE", "points, one a line, separated by blanks or commas");
     line.text("--intervals", options.intervals, "FILE", "boxes, one a line: lo,hi for every coordinate");
     line.flag("--gradient", options.gradient, "also print the partial derivatives of F");
+    line.flag("--classify", options.classify, "print in, on or out for every point, and nothing else");
+    line.text("--tolerance", options.tolerance, "LENGTH",
+              "a point is on the surface where |F| <= LENGTH |grad F| (default 1e-6)");
     line.text("--bounds", options.bounds, "BOX", "without effect here");
     if (const auto code = line.parse(arguments)) return *code;
     return evaluate(options);

@@ -38,6 +38,8 @@ constexpr std::array verbs = {
     Verb{"render", "a picture of a solid", run_render},
     Verb{"morph", "a model in which one shape turns into another", run_morph},
     Verb{"animate", "a moving picture of a model that changes, or turns", run_animate},
+    Verb{"measure", "volume, centroid, inertia and weight, with guaranteed intervals", run_measure},
+    Verb{"collide", "whether two models have points in common", run_collide},
     Verb{"bench", "how long loading, evaluating, pictures and meshes take", run_bench},
 };
 

@@ -30,6 +30,8 @@ int run_field(Arguments arguments);
 int run_render(Arguments arguments);
 int run_morph(Arguments arguments);
 int run_animate(Arguments arguments);
+int run_measure(Arguments arguments);
+int run_collide(Arguments arguments);
 int run_bench(Arguments arguments);
 
 }  // namespace frep::cli
