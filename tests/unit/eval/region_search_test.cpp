@@ -163,7 +163,7 @@ TEST_CASE("the ball of the variables: an offset by a radius") {
         const Dual out = r.value > 0.4 ? r - Dual(0.4) : Dual(0.0);
         return Dual(1.0) - out * out;
     };
-    CHECK(error_against(offset, formula) < 3e-6);
+    CHECK(error_against(offset, formula) < 6e-6);  // values down to -5
     CHECK(misses(offset, 0.25) == 0);
 }
 
