@@ -97,17 +97,35 @@ class SpaceSearch {
         return fixed;
     }
 
-    /// The middle of the box, or of what the ball leaves of it.
+    /// The middle of the box, or, where that is outside of the ball, the last place in it on the way there
+    /// from the place of the box that is nearest to the middle of the ball. Always in the box: slopes hold
+    /// there alone.
     std::array<Interval, 3> inner_point(const Box& box) const {
-        std::array<double, 3> c{};
-        double distance = 0;
+        std::array<double, 3> near{}, way{};
         for (std::size_t i = 0; i < n_; ++i) {
-            c[i] = middle(box.range[i]);
-            distance += (c[i] - 0.5) * (c[i] - 0.5);
+            near[i] = std::clamp(0.5, box.range[i].lo, box.range[i].hi);
+            way[i] = middle(box.range[i]) - near[i];
+        }
+        const auto inside = [&](double share) {
+            double square = 0;
+            for (std::size_t i = 0; i < n_; ++i) {
+                const double d = near[i] + share * way[i] - 0.5;
+                square += d * d;
+            }
+            return square <= 0.25;
+        };
+        double share = 1;
+        if (in_ball_ && !inside(1)) {
+            double low = 0, high = 1;
+            for (int step = 0; step < 50; ++step) {
+                const double half = 0.5 * (low + high);
+                (inside(half) ? low : high) = half;
+            }
+            share = low;
         }
         std::array<Interval, 3> at;
-        const double shrink = in_ball_ && distance > 0.25 ? 0.5 / math::sqrt(distance) * (1 - 0x1p-50) : 1.0;
-        for (std::size_t i = 0; i < n_; ++i) at[i] = Interval(0.5 + (c[i] - 0.5) * shrink);
+        for (std::size_t i = 0; i < n_; ++i)
+            at[i] = Interval(std::clamp(near[i] + share * way[i], box.range[i].lo, box.range[i].hi));
         return at;
     }
 
@@ -118,26 +136,24 @@ class SpaceSearch {
         const Slope& slope = box.slope;
         box.most = std::min(box.most, slope.value.hi);
         box.one_peak = false;
-        std::array<double, 3> reach{}, share{};
+        std::array<double, 3> width{}, share{};
         for (std::size_t i = 0; i < n_; ++i) {
-            reach[i] = size(box.range[i] - at[i]);
+            width[i] = box.range[i].hi - box.range[i].lo;
             const double d = size(slope.d[i]);
-            share[i] = reach[i] * (d < math::infinity ? d : 1.0);
+            share[i] = width[i] * (d < math::infinity ? d : 1.0);
         }
         const bool even = !slope.value.maybe_undefined && point.defined();
         if (even) {
             const double bend = bend_of(slope);
             box.one_peak = bend == 0;
-            for (std::size_t i = 0; i < n_ && box.one_peak; ++i) share[i] = reach[i];
+            if (box.one_peak) share = width;
             box.most = std::min(box.most, linear_bound(box, at, point, slope.d, 0));
             box.most = std::min(box.most, linear_bound(box, at, point, point.slope.d, bend));
         }
         box.widest = static_cast<std::size_t>(std::max_element(share.begin(), share.end()) - share.begin());
-        const auto flat_side = [&](std::size_t i) { return !(box.range[i].lo < box.range[i].hi); };
-        if (flat_side(box.widest)) {
-            for (std::size_t i = 0; i < n_; ++i)
-                if (reach[i] > reach[box.widest]) box.widest = i;
-        }
+        if (!(share[box.widest] > 0))
+            box.widest =
+                static_cast<std::size_t>(std::max_element(width.begin(), width.end()) - width.begin());
     }
 
     /// From the value at a point with derivatives in `d`, and what a curvature of up to `bend` adds.
