@@ -136,8 +136,8 @@ class ConcaveSearch {
         const double shrink = active_.size() == 1 ? 0.25 * (1 - depth) * (1 - depth)
                                                   : n * n * (1 - depth * depth) / (n * n - 1);
         const double flatten = active_.size() == 1 ? 0.0 : 2 * move / (1 + depth);
-        // The entries cancel when the ellipsoid is thin: what rounding may have taken, of the longest axis, is
-        // added all round.
+        // The entries cancel when the ellipsoid is thin: what rounding may have taken, of the longest axis,
+        // is added all round.
         double slack = 0;
         for (const std::size_t i : active_) slack += shape_[i][i];
         slack *= 1e-14 * shrink;
