@@ -17,6 +17,11 @@
 using namespace frep;
 using doctest::Approx;
 
+/// OpenVDB 10 loses the nodes that it made when the rest of a cut file is missing: no leak of ours. Asked for
+/// by the leak sanitizer, by nobody else.
+extern "C" const char* __lsan_default_suppressions();
+extern "C" const char* __lsan_default_suppressions() { return "leak:openvdb\n"; }
+
 namespace {
 
 std::string bytes_of(const openvdb::GridPtrVec& grids, std::uint32_t compression) {
