@@ -25,7 +25,8 @@ class GraphFunction final : public SearchedFunction {
             if (node.op == Op::constant) {
                 slopes_[id] = Slope::constant(Interval(graph_.constant_of(id)));
             } else if (node.op == Op::coordinate) {
-                slopes_[id] = Slope::variable(box[node.payload], node.payload);
+                slopes_[id] = node.payload < box.size() ? Slope::variable(box[node.payload], node.payload)
+                                                        : Slope::constant(Interval(0.0));
             } else {
                 std::vector<const Slope*> arguments;
                 for (const NodeId a : graph_.arguments(id)) arguments.push_back(&slopes_[a]);
