@@ -5,7 +5,7 @@
 # there, however it was installed.
 
 declare -A packages=(
-    [build]='cmake:cmake ninja-build:ninja g++:g++ libfmt-dev libcli11-dev nlohmann-json3-dev libtbb-dev libpng-dev zlib1g-dev libasmjit-dev libpugixml-dev libfreetype-dev libopenvdb-dev'
+    [build]='cmake:cmake ninja-build:ninja g++:g++ libfmt-dev libcli11-dev nlohmann-json3-dev libtbb-dev libpng-dev zlib1g-dev libasmjit-dev libpugixml-dev libfreetype-dev libopenvdb-dev libboost-dev'
     [test]='doctest-dev fonts-dejavu-core libmpfr-dev libgmp-dev admesh:admesh lib3mf-dev libxml2-utils:xmllint libcgal-dev nodejs:node npm:npm'
     [ci]='clang-14:clang++-14 libclang-rt-14-dev llvm-14:llvm-symbolizer-14 clang-format-14:clang-format-14'
 )
