@@ -137,6 +137,8 @@ Status plan_extras(const MeshOptions& options, MeshPlan& plan) {
         return usage("--layer LENGTH is missing: the thickness of the layers of a .cli file");
     if (plan.layer > 0 && plan.target && !writes_slices)
         return usage("--layer makes slices, which go to a .cli file");
+    if (requires_resolved(plan.required) && (plan.layer > 0 || !plan.is_adaptive))
+        return usage("--require resolved belongs to meshes by --method adaptive");
     if (plan.layer > 0 && plan.print_check) return usage("--print-check judges a mesh, not slices");
     if (options.material) {
         const NamedMaterial* material = find_material(*options.material);
@@ -200,7 +202,7 @@ void declare_mesh_options(CommandLine& line, MeshOptions& options) {
     line.text("--report", options.report, "FILE.json", "checks and measures of the mesh");
     line.flag("--json", options.json, "the report on standard output");
     line.text("--require", options.require, "LIST",
-              "closed,manifold,oriented,no-self-intersection: exit code 3 if it is not");
+              "closed,manifold,oriented,no-self-intersection,resolved: exit code 3 if it is not");
     line.text("--material", options.material, "NAME", "how the surface looks (.glb, .obj, .wrl, .x3d, .pov)");
     line.flag("--print-check", options.print_check, "walls, gaps, overhangs and stand, for 3-D printing");
     line.text("--overhang", options.overhang, "ANGLE", "steepest slope that prints unsupported (45deg)");

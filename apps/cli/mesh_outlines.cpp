@@ -21,6 +21,9 @@ class OutlineRun {
     }
 
     int run() {
+        if (requires_resolved(plan_.required))
+            return fail(Error{ErrorKind::invalid_argument,
+                              "--require resolved belongs to meshes of solids, not to drawings"});
         for (const PreparedModel& prepared : models_)
             if (const int code = add_object(prepared)) return code;
         const LengthUnit unit = model_unit(models_.front());

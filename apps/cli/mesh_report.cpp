@@ -104,6 +104,7 @@ Json mesh_json(const MeshReport& report, const MeshFigures& figures) {
     out["undefined_points"] = figures.undefined_points;
     if (figures.first_undefined) out["first_undefined"] = point_json(*figures.first_undefined);
     out["tight_cells"] = figures.tight_cells;
+    out["hidden_cells"] = figures.hidden_cells;
     out["closed"] = report.closed;
     out["manifold"] = report.manifold;
     out["oriented"] = report.oriented;
@@ -119,19 +120,26 @@ Json mesh_json(const MeshReport& report, const MeshFigures& figures) {
 }
 
 Result<std::vector<std::string>> parse_requirements(std::string_view text) {
-    constexpr std::string_view known[] = {"closed", "manifold", "oriented", "no-self-intersection"};
+    constexpr std::string_view known[] = {"closed", "manifold", "oriented", "no-self-intersection",
+                                          "resolved"};
     std::vector<std::string> out;
     for (const std::string_view word : split_at_commas(text)) {
         if (std::find(std::begin(known), std::end(known), word) == std::end(known))
             return Error{
                 ErrorKind::invalid_argument,
-                fmt::format("`{}` is not one of closed, manifold, oriented, no-self-intersection", word)};
+                fmt::format("`{}` is not one of closed, manifold, oriented, no-self-intersection, resolved",
+                            word)};
         out.emplace_back(word);
     }
     return out;
 }
 
-std::vector<std::string> broken_promises(const std::vector<std::string>& required, const MeshReport& report) {
+bool requires_resolved(const std::vector<std::string>& required) {
+    return std::find(required.begin(), required.end(), "resolved") != required.end();
+}
+
+std::vector<std::string> broken_promises(const std::vector<std::string>& required, const MeshReport& report,
+                                         const MeshFigures& figures) {
     std::vector<std::string> out;
     for (const std::string& word : required) {
         if (word == "closed" && !report.closed) {
@@ -153,6 +161,10 @@ std::vector<std::string> broken_promises(const std::vector<std::string>& require
                 fmt::format("--require: the mesh intersects itself: {} pairs of triangles, the first at "
                             "({:.6g}, {:.6g}, {:.6g})",
                             found.count, p.x, p.y, p.z));
+        } else if (word == "resolved" && figures.tight_cells + figures.hidden_cells > 0) {
+            out.push_back(fmt::format(
+                "--require: the cells are too large: {} with walls or gaps about as thin, {} that hide some",
+                figures.tight_cells, figures.hidden_cells));
         }
     }
     return out;

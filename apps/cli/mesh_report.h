@@ -31,7 +31,7 @@ struct ObjectFigures {
 /// What is told of a mesh beside its MeshReport.
 struct MeshFigures {
     std::uint64_t undefined_points = 0;
-    std::uint64_t tight_cells = 0;
+    std::uint64_t tight_cells = 0, hidden_cells = 0;  ///< as in ContourResult
     std::optional<Vec3> first_undefined;
     std::optional<MeshError> error;
     std::string_view unit;
@@ -41,10 +41,14 @@ struct MeshFigures {
 /// The report without "run".
 Json mesh_json(const MeshReport& report, const MeshFigures& figures);
 
-/// A list of closed, manifold, oriented, no-self-intersection. Errors: an unknown word.
+/// A list of closed, manifold, oriented, no-self-intersection, resolved. Errors: an unknown word.
 Result<std::vector<std::string>> parse_requirements(std::string_view text);
 
+/// Whether "resolved" is among the promises: that no wall or gap is too thin for the cells.
+bool requires_resolved(const std::vector<std::string>& required);
+
 /// Why the mesh breaks one of the promises: a sentence for each that it breaks.
-std::vector<std::string> broken_promises(const std::vector<std::string>& required, const MeshReport& report);
+std::vector<std::string> broken_promises(const std::vector<std::string>& required, const MeshReport& report,
+                                         const MeshFigures& figures);
 
 }  // namespace frep::cli

@@ -64,6 +64,7 @@ class SolidRun {
         warn_samples(prepared, result->undefined_points, result->first_undefined);
         warn_tight(*result);
         figures_.tight_cells += result->tight_cells;
+        figures_.hidden_cells += result->hidden_cells;
         figures_.undefined_points += result->undefined_points;
         if (!figures_.first_undefined) figures_.first_undefined = result->first_undefined;
 
@@ -120,13 +121,17 @@ class SolidRun {
     }
 
     static void warn_tight(const ContourResult& result) {
-        if (result.tight_cells == 0) return;
-        const Vec3 p = *result.first_tight;
-        print_warning(fmt::format(
-            "walls or gaps are about as thin as a cell in {} cell{}, the first near {}; the mesh may be "
-            "parted "
-            "or joined there: a smaller --cell shows more",
-            result.tight_cells, result.tight_cells == 1 ? "" : "s", point_text(std::array{p.x, p.y, p.z})));
+        const auto warn = [](std::uint64_t cells, const std::optional<Vec3>& first, const char* what,
+                             const char* effect) {
+            if (cells == 0) return;
+            print_warning(fmt::format("{} in {} cell{}, the first near {}; {}: a smaller --cell shows more",
+                                      what, cells, cells == 1 ? "" : "s",
+                                      point_text(std::array{first->x, first->y, first->z}), effect));
+        };
+        warn(result.hidden_cells, result.first_hidden, "walls, rods or gaps lie between the samples",
+             "the mesh lacks them");
+        warn(result.tight_cells, result.first_tight, "walls or gaps are about as thin as a cell",
+             "the mesh may be parted or joined there");
     }
 
     static std::string name_of(const PreparedModel& prepared) {
@@ -146,7 +151,7 @@ class SolidRun {
     /// The checks, the report and the promises; files are written before.
     int judge(const Mesh& mesh) {
         const MeshReport report = check(mesh, {.self_intersections = true}, job_);
-        std::vector<std::string> broken = broken_promises(plan_.required, report);
+        std::vector<std::string> broken = broken_promises(plan_.required, report, figures_);
         Json json = mesh_json(report, figures_);
         if (plan_.print_check) {
             const auto print = run_print_check(mesh, plan_, scene_.unit, job_);

@@ -5,7 +5,7 @@ namespace frep::contouring {
 
 namespace {
 
-/// The point of the first undefined sample of a tally.
+/// The point of the first place of a tally: a sample, or the lower corner of a cell.
 Vec3 place_of(const PlaceTally& tally, const Grid& grid) {
     const std::array<std::uint32_t, 3> block = morton_decode(tally.block);
     const std::uint32_t at = tally.local;
@@ -30,6 +30,8 @@ void add_findings(BlockFindings findings, const OctreeResult& octree, ContourRes
     if (result.undefined_points > 0) result.first_undefined = place_of(findings.undefined, result.grid);
     result.tight_cells = findings.tight.count;
     if (result.tight_cells > 0) result.first_tight = place_of(findings.tight, result.grid);
+    result.hidden_cells = findings.hidden.count;
+    if (result.hidden_cells > 0) result.first_hidden = place_of(findings.hidden, result.grid);
     for (std::size_t s = 0; s < 6; ++s) result.touches[s] = findings.touches[s] || octree.touches[s];
 }
 

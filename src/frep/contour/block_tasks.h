@@ -35,7 +35,7 @@ struct BlockTasks {
 /// What the tasks found beside the parts of the mesh.
 struct BlockFindings {
     PlaceTally undefined;
-    PlaceTally tight;               ///< cells, see ContourResult
+    PlaceTally tight, hidden;       ///< cells, see ContourResult
     std::array<bool, 6> touches{};  ///< sides -x +x -y +y -z +z reached by the shape
     bool over_limit = false;        ///< more than most_nodes; later blocks were left out
 };
@@ -55,7 +55,8 @@ inline BlockFields fields_of(const FieldPart& part, const std::shared_ptr<Sample
 }
 
 /// For each task a worker, make(field), and for each of its blocks made += run(worker, number of the block,
-/// its fields): the nodes made. A worker has the members `undefined` and `touches`, and may have `tight`.
+/// its fields): the nodes made. A worker has the members `undefined` and `touches`, and may have `tight` and
+/// `hidden`.
 template <class Make, class Run>
 BlockFindings for_blocks(const BlockTasks& tasks, const Job& job, Make make, Run run) {
     BlockFindings findings;
@@ -85,6 +86,7 @@ BlockFindings for_blocks(const BlockTasks& tasks, const Job& job, Make make, Run
         const std::lock_guard lock(mutex);
         findings.undefined.add(worker.undefined);  // sums and minima: the order of arrival does not matter
         if constexpr (requires { worker.tight; }) findings.tight.add(worker.tight);
+        if constexpr (requires { worker.hidden; }) findings.hidden.add(worker.hidden);
         for (std::size_t s = 0; s < 6; ++s) findings.touches[s] = findings.touches[s] || worker.touches[s];
         ++tasks_done;
         if (tasks_done % 64 == 0 || tasks_done == count)

@@ -50,8 +50,12 @@ struct ContourResult {
     /// is not known from the samples.
     std::uint64_t tight_cells = 0;
     std::optional<Vec3> first_tight;  ///< the lower corner of the first of them, in block order
-    std::array<bool, 6> touches{};    ///< the shape reaches the side -x +x -y +y -z +z of the grid
-    std::size_t sampled_blocks = 0;   ///< blocks of 8^3 samples that were evaluated
+    /// Cells with a part of the solid, or a gap, that none of the samples around them meets (adaptive method
+    /// only): the mesh lacks it. At least so many; see thin_parts.h for what may be overlooked.
+    std::uint64_t hidden_cells = 0;
+    std::optional<Vec3> first_hidden;  ///< the lower corner of the first of them, in block order
+    std::array<bool, 6> touches{};     ///< the shape reaches the side -x +x -y +y -z +z of the grid
+    std::size_t sampled_blocks = 0;    ///< blocks of 8^3 samples that were evaluated
 };
 
 /// Errors: invalid_argument for bad bounds or cell sizes (see make_grid), over_limit for too many cells or

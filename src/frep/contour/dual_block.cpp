@@ -93,7 +93,9 @@ void DualSampler::place(std::uint64_t code) {
 
 const DualBlock* DualSampler::sample(std::uint64_t code, const BlockFields& fields) {
     place(code);
-    if (!take_values(code, fields.signs)) return nullptr;
+    const bool is_crossed = take_values(code, fields.signs);
+    look_between(code, fields);
+    if (!is_crossed) return nullptr;
     work_.reset(code);
     collect_edges(work_);
     collect_cells(work_);
@@ -146,6 +148,12 @@ bool DualSampler::take_values(std::uint64_t code, SampledField& field) {
     }
     if (!is_defined || (is_at_side_ && inside > 0)) note_samples(code);
     return inside > 0 && (inside < count || (options_.cap && inside < size));
+}
+
+/// Counts the cells that hold what no sample shows.
+void DualSampler::look_between(std::uint64_t code, const BlockFields& fields) {
+    const SampleBlock block{grid_, values_, rows_, lo_, first_, last_};
+    for (const std::uint32_t cell : thin_parts_.find(block, fields)) hidden.add(1, code, cell);
 }
 
 /// Counts the undefined samples of this block's own and notes inside samples at the sides of the box.

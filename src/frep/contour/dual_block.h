@@ -15,6 +15,7 @@
 #include "frep/contour/edge_roots.h"
 #include "frep/contour/grid.h"
 #include "frep/contour/octree.h"
+#include "frep/contour/thin_parts.h"
 #include "frep/eval/sampled_field.h"
 
 namespace frep::contouring {
@@ -131,7 +132,8 @@ class DualSampler {
     const DualBlock* sample(std::uint64_t code, const BlockFields& fields);
 
     PlaceTally undefined;
-    PlaceTally tight;  ///< cells, see ContourResult::tight_cells
+    PlaceTally tight;   ///< cells, see ContourResult::tight_cells
+    PlaceTally hidden;  ///< cells, see ContourResult::hidden_cells
     std::array<bool, 6> touches{};
 
   private:
@@ -146,6 +148,7 @@ class DualSampler {
 
     void place(std::uint64_t code);
     bool take_values(std::uint64_t code, SampledField& field);
+    void look_between(std::uint64_t code, const BlockFields& fields);
     void note_samples(std::uint64_t code);
     void collect_edges(DualBlock& block);
     void add_edge(DualBlock& block, const Lattice& lower, std::size_t axis);
@@ -166,6 +169,7 @@ class DualSampler {
     std::vector<double> x_, y_, z_, out_, gx_, gy_, gz_, columns_;
     DualBlock work_;
     EdgeRoots finder_;
+    ThinParts thin_parts_;
     std::vector<CrossedEdge> crossed_;       ///< the edges to search
     std::vector<std::uint32_t> crossed_at_;  ///< their rank in the block
     std::vector<EdgeRoot> found_;
