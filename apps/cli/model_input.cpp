@@ -186,6 +186,18 @@ std::string coordinate_name(std::size_t index) {
     return index < names.size() ? std::string(1, names[index]) : fmt::format("x{}", index + 1);
 }
 
+std::optional<std::size_t> find_coordinate(std::string_view name, std::size_t count) {
+    for (std::size_t i = 0; i < count; ++i)
+        if (name == coordinate_name(i) || name == fmt::format("x{}", i + 1) ||
+            name == fmt::format("x[{}]", i + 1))
+            return i;
+    return std::nullopt;
+}
+
+std::optional<std::size_t> find_time(std::string_view name, std::size_t count) {
+    return name == "t" && count == 3 ? std::optional<std::size_t>(2) : std::nullopt;
+}
+
 namespace {
 
 Error map_error(std::string message) { return {ErrorKind::invalid_argument, std::move(message)}; }
@@ -208,12 +220,12 @@ Status freeze(std::string_view piece, const FindParameter& find, StatedMap& out)
     const std::size_t equals = piece.find('=');
     const std::string name = lower_case(piece.substr(0, equals));
     const std::string_view value = piece.substr(equals + 1);
-    for (std::size_t i = 0; i < out.map.coordinates.size(); ++i) {
-        if (name != coordinate_name(i) && name != fmt::format("x{}", i + 1)) continue;
-        if (freeze_at(i, value, find, out)) return {};
-        return map_error(fmt::format("`{}` is neither a number nor a parameter", value));
-    }
-    return map_error(fmt::format("the object has no coordinate `{}`", name));
+    const std::size_t count = out.map.coordinates.size();
+    auto coordinate = find_coordinate(name, count);
+    if (!coordinate) coordinate = find_time(name, count);
+    if (!coordinate) return map_error(fmt::format("the object has no coordinate `{}`", name));
+    if (freeze_at(*coordinate, value, find, out)) return {};
+    return map_error(fmt::format("`{}` is neither a number nor a parameter", value));
 }
 
 }  // namespace

@@ -71,8 +71,13 @@ std::optional<Color> annotated_color(const Model& model);
 /// The last axis of space that no coordinate takes: a model with one is flat, across it. Nothing for a solid.
 std::optional<int> unused_axis(const PreparedModel& prepared);
 
-/// Names of a coordinate, first = 0: "x", and "x1".
+/// The name of a coordinate, first = 0: "x", "y", "z", "t", "x5".
 std::string coordinate_name(std::size_t index);
+/// The number, from 0, of the coordinate that a name in lower case means, of so many: that name, or "x1", or
+/// "x[1]".
+std::optional<std::size_t> find_coordinate(std::string_view name, std::size_t count);
+/// The same for "t" where no coordinate is called so: the last of three, time in a plane model that moves.
+std::optional<std::size_t> find_time(std::string_view name, std::size_t count);
 
 /// The number, from 0, of the parameter that a name means.
 using FindParameter = std::function<std::optional<std::size_t>(std::string_view)>;

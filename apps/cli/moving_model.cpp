@@ -15,12 +15,6 @@ namespace {
 
 Error usage(std::string message) { return {ErrorKind::invalid_argument, std::move(message)}; }
 
-std::optional<std::size_t> find_coordinate(std::string_view name, std::size_t count) {
-    for (std::size_t i = 0; i < count; ++i)
-        if (name == coordinate_name(i) || name == fmt::format("x{}", i + 1)) return i;
-    return std::nullopt;
-}
-
 /// All names that something of the model could be moved by.
 std::string names_of(const PreparedModel& prepared) {
     std::string out;
@@ -31,10 +25,6 @@ std::string names_of(const PreparedModel& prepared) {
         out += (out.empty() ? "" : ", ") + parameter.name;
     return out;
 }
-
-}  // namespace
-
-namespace {
 
 /// NAME and the numbers behind the equals sign.
 Result<Along> along_of(std::string_view text, std::string_view name, std::string_view from,
@@ -80,15 +70,18 @@ Result<MovingModel> MovingModel::make(PreparedModel& prepared, const std::option
     if (!along) return out;
     const std::string name = lower_case(along->name);
     const auto count = prepared.map.coordinates.size();
-    if (const auto coordinate = find_coordinate(name, count)) {
+    const auto index = find_parameter(prepared.model, prepared.object, name);
+    const bool is_parameter = index && *index <= prepared.field().parameters.size();
+    auto coordinate = find_coordinate(name, count);
+    if (!coordinate && !is_parameter) coordinate = find_time(name, count);
+    if (coordinate) {
         if (prepared.map_given && prepared.map.coordinates[*coordinate].axis >= 0)
             return usage(fmt::format("coordinate {} is an axis of the picture (--map)", along->name));
         out.coordinate_ = coordinate;
         out.name_ = coordinate_name(*coordinate);
         return out;
     }
-    const auto index = find_parameter(prepared.model, prepared.object, name);
-    if (index && *index <= prepared.field().parameters.size()) {
+    if (is_parameter) {
         out.parameter_ = *index - 1;
         out.name_ = along->name;
         return out;
