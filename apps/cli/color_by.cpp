@@ -29,13 +29,9 @@ Status color_by(PreparedModel& prepared, const Steps& steps) {
     if (!model) return model.error();
     std::vector<ColoredPart> parts;
     std::size_t nodes = 0;
-    for (int i = 0; i < steps.count; ++i) {
-        const double share = static_cast<double>(i) / (steps.count - 1);
-        if (const Status status =
-                model->set(evenly_spaced(steps.along, steps.count)[static_cast<std::size_t>(i)]);
-            !status)
-            return status;
-        const Color color = ramp_color(share);
+    for (const double value : evenly_spaced(steps.along, steps.count)) {
+        if (const Status status = model->set(value); !status) return status;
+        const Color color = ramp_color((value - steps.along.from) / (steps.along.to - steps.along.from));
         ColoredPart part{prepared.field(), {}, {color.r, color.g, color.b}};
         for (std::size_t c = 0; c < prepared.map.coordinates.size(); ++c)
             if (prepared.map.coordinates[c].axis < 0)

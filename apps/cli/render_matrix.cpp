@@ -43,16 +43,16 @@ int columns_of(const MatrixPlan& matrix) {
 
 class MatrixRun {
   public:
+    /// The model is in one of the states: a coordinate that moves is no axis of the picture.
     MatrixRun(const RenderOptionTexts& options, const RenderPlan& plan, const MatrixPlan& matrix,
-              PreparedModel& prepared)
-        : options_(options), matrix_(matrix), prepared_(prepared), view_(options, plan, prepared) {}
+              PreparedModel& prepared, std::vector<MovingModel> moving)
+        : options_(options),
+          matrix_(matrix),
+          prepared_(prepared),
+          view_(options, plan, prepared),
+          moving_(std::move(moving)) {}
 
     int run() {
-        for (const Steps& steps : matrix_.steps) {
-            auto model = MovingModel::make(prepared_, steps.along);
-            if (!model) return fail({model.error().kind, "--matrix: " + model.error().message});
-            moving_.push_back(std::move(*model));
-        }
         if (const auto code = view_.begin()) return *code;
         const std::vector<State> states = states_of(matrix_);
         for (const State& state : states) {
@@ -128,7 +128,14 @@ Result<MatrixPlan> parse_matrix(std::string_view text) {
 
 int render_matrix(const RenderOptionTexts& options, const RenderPlan& plan, const MatrixPlan& matrix,
                   PreparedModel& prepared) {
-    return MatrixRun(options, plan, matrix, prepared).run();
+    std::vector<MovingModel> moving;
+    for (const Steps& steps : matrix.steps) {
+        auto model = MovingModel::make(prepared, steps.along);
+        if (!model) return fail({model.error().kind, "--matrix: " + model.error().message});
+        if (const Status status = model->set(steps.along.from); !status) return fail(status.error());
+        moving.push_back(std::move(*model));
+    }
+    return MatrixRun(options, plan, matrix, prepared, std::move(moving)).run();
 }
 
 }  // namespace frep::cli
