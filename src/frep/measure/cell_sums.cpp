@@ -3,13 +3,13 @@
 
 #include <algorithm>
 
+#include "frep/measure/pairs.h"
+
 namespace frep::measuring {
 
 namespace {
 
 using math::Interval;
-
-constexpr std::array<std::array<std::size_t, 2>, 6> pairs{{{0, 0}, {1, 1}, {2, 2}, {0, 1}, {0, 2}, {1, 2}}};
 
 /// The number of the pair of axes i, j.
 std::size_t pair_of(std::size_t i, std::size_t j) {

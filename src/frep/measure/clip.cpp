@@ -4,13 +4,13 @@
 #include <algorithm>
 #include <cstddef>
 
+#include "frep/measure/pairs.h"
+
 namespace frep::measuring {
 
 namespace {
 
 using Point = std::array<double, 3>;
-
-constexpr std::array<std::array<std::size_t, 2>, 6> pairs{{{0, 0}, {1, 1}, {2, 2}, {0, 1}, {0, 2}, {1, 2}}};
 
 /// A simplex of the cut: corners, and the function there.
 template <int D>
@@ -133,19 +133,22 @@ PartMoments positive_part_of_lattice(int dimension, std::span<const double> poin
     const auto d = static_cast<std::size_t>(dimension);
     const std::size_t parts = std::size_t{1} << d;
     const double weight = 1 / static_cast<double>(parts);
-    PartMoments out;
+    PartMoments out, whole;
+    whole.share = 1;
+    for (std::size_t k = 0; k < d; ++k) whole.second[k] = 1.0 / 3;
     std::array<double, 8> corners{};
     for (std::size_t part = 0; part < parts; ++part) {
-        bool any = false;
+        bool any = false, all = true;
         for (std::size_t corner = 0; corner < parts; ++corner) {
             std::size_t point = 0, step = 1;
             for (std::size_t k = 0; k < d; ++k, step *= 3)
                 point += ((part >> k & 1u) + (corner >> k & 1u)) * step;
             corners[corner] = points[point];
             any = any || corners[corner] > 0;
+            all = all && corners[corner] > 0;
         }
         if (!any) continue;
-        const PartMoments m = positive_part(dimension, {corners.data(), parts});
+        const PartMoments m = all ? whole : positive_part(dimension, {corners.data(), parts});
         // u = (side + v)/2, with v the coordinates of the part
         const auto side = [&](std::size_t k) { return part >> k & 1u ? 1.0 : -1.0; };
         out.share += weight * m.share;
