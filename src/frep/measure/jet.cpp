@@ -79,7 +79,7 @@ Jet JetMachine::apply(const ClauseTape& tape, const Clause& clause) {
     }
     const Interval value =
         meaning<Interval>(clause.op, std::span<const Interval>(values), tape.block_of(clause));
-    if (moves == 0 || value.lo == value.hi) return {value, {}, {}, 0};
+    if (moves == 0) return {value, {}, {}, 0};
     if (const auto jet = jet_of(clause.op, value, jets, with_second_)) return *jet;
     if (const ClauseTape* formula = formula_of(clause.op, numbers.size())) {
         Jet jet = run_formula(*formula, jets);
@@ -87,6 +87,8 @@ Jet JetMachine::apply(const ClauseTape& tape, const Clause& clause) {
         jet.value = cut(value, jet.value);
         return jet;
     }
+    // a step that is not in the box
+    if (value.lo == value.hi) return {value, {}, {}, 0};
     return unknown_jet(value, moves);
 }
 

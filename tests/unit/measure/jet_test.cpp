@@ -35,7 +35,7 @@ constexpr const char* smooth[] = {
     "3/x[2] - x[1]/2",
     "sqrt(x[1]^2 + x[2]^2) - x[3]",
     "sqrt(x[1] + 2*x[2]*x[3])",
-    "exp(x[1]*x[2]) + log(x[3] + x[1]) + log10(x[2])",
+    "exp(x[1]*x[2]) + log(x[3] + x[1])",
     "sin(2*x[1] + x[2])*cos(x[3]*x[1])",
     "tan(x[1]*x[2]) + atan(3*x[3]) - asin(x[1]*x[3]) + acos(x[2]*x[2])",
     "atan2(x[2] + x[3], x[1] - 2*x[3])",
