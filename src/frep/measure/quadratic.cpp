@@ -20,6 +20,15 @@ bool is_usable(const Interval& v) {
 }
 double middle_of(const Interval& v) { return v.lo + 0.5 * (v.hi - v.lo); }
 double size_of(const Interval& v) { return std::max(std::abs(v.lo), std::abs(v.hi)); }
+/// How far the ends of v may be from middle_of(v).
+double radius_of(const Interval& v) {
+    const Interval m(middle_of(v));
+    return std::max((Interval(v.hi) - m).hi, (m - Interval(v.lo)).hi);
+}
+template <class Measure>
+double largest_of(const std::array<Interval, 3>& all, Measure measure) {
+    return std::max({measure(all[0]), measure(all[1]), measure(all[2])});
+}
 /// A pair of variables stands for two entries of the matrix, but on the diagonal.
 double entries(std::size_t pair) { return pairs[pair][0] == pairs[pair][1] ? 1 : 2; }
 
@@ -98,7 +107,7 @@ QuadraticGap gap_of(const Quadratic& q, const Cell& cell, std::span<const std::s
         const auto [i, j] = pairs[p];
         if (i >= axes.size() || j >= axes.size()) continue;
         const auto most = [&](std::size_t k) { return std::max(size_of(ways[k][0]), size_of(ways[k][2])); };
-        gap.rest += entries(p) * q.rest[p] * most(i) * most(j);
+        gap.rest += 0.5 * entries(p) * q.rest[p] * most(i) * most(j);
         gap.bend += entries(p) * std::abs(q.second[p]) * half[i] * half[j] / 8;
     }
     return gap;
@@ -122,18 +131,24 @@ void set_quadratic_bounds(const Quadratic& q, const Cell& cell, std::span<const 
     std::array<std::array<std::array<Interval, 3>, 3>, 6> shared;
     std::array<bool, 6> is_shared{};
     Interval below = 0, above = 0;
+    // R is at most a diagonal matrix: |t_i| |t_j| <= (t_i^2 l_j/l_i + t_j^2 l_i/l_j) / 2, equal where |t| = l.
+    // Squares are below their lines.
+    std::array<Interval, 3> rest;
+    std::array<std::array<Interval, 3>, 3> off;
     for (std::size_t p = 0; p < pairs.size(); ++p) {
         const auto [i, j] = pairs[p];
         if (i >= axes.size() || j >= axes.size()) continue;
         const Interval m(q.second[p]), weight(entries(p));
-        const auto most = [&](std::size_t k) { return Interval(std::max(size_of(ways[k][0]), size_of(ways[k][2]))); };
-        const Interval rest = weight * Interval(0.5 * q.rest[p]) * most(i) * most(j);
+        const auto most = [&](std::size_t k) {
+            return Interval(std::max(size_of(ways[k][0]), size_of(ways[k][2])));
+        };
+        rest[i] += Interval(q.rest[p]) * most(j) / most(i);
+        if (i != j) rest[j] += Interval(q.rest[p]) * most(i) / most(j);
+        const Interval largest_rest = weight * Interval(0.5 * q.rest[p]) * most(i) * most(j);
         const Interval bend = weight * math::abs(m) * Interval(half[i]) * Interval(half[j]) * Interval(0.125);
-        below += rest;
-        above += rest;
         (q.second[p] > 0 ? below : above) += bend;
-        out.gap[i] += rest.hi + 0.5 * bend.hi;
-        out.gap[j] += rest.hi + 0.5 * bend.hi;
+        out.gap[i] += 0.5 * (largest_rest.hi + bend.hi);
+        out.gap[j] += 0.5 * (largest_rest.hi + bend.hi);
         is_shared[p] = i != j && q.second[p] != 0;
         for (std::size_t a = 0; a < 3; ++a) {
             if (i == j) own[i][a] = q.slope[i] * ways[i][a] + Interval(0.5) * m * math::square(ways[i][a]);
@@ -141,14 +156,42 @@ void set_quadratic_bounds(const Quadratic& q, const Cell& cell, std::span<const 
                 for (std::size_t b = 0; b < 3; ++b) shared[p][a][b] = m * ways[i][a] * ways[j][b];
         }
     }
+    for (std::size_t k = 0; k < axes.size(); ++k)
+        for (std::size_t a = 0; a < 3; ++a)
+            off[k][a] = Interval(0.5) * rest[k] * math::square(ways[k][a]);
+    // The sums of the lattice in doubles: fewer than 16 additions, each within 2^-53 of the sizes' sum.
+    Interval slack = Interval(radius_of(q.value)), sizes = Interval(size_of(q.value)) + below + above;
+    std::array<std::array<double, 3>, 3> rise{}, spread{};
+    std::array<std::array<std::array<double, 3>, 3>, 6> twist{};
+    for (std::size_t k = 0; k < axes.size(); ++k) {
+        slack += largest_of(own[k], radius_of);
+        sizes += Interval(largest_of(own[k], size_of)) + Interval(largest_of(off[k], size_of));
+        for (std::size_t a = 0; a < 3; ++a) {
+            rise[k][a] = middle_of(own[k][a]);
+            spread[k][a] = off[k][a].hi;
+        }
+    }
+    for (std::size_t p = 3; p < pairs.size(); ++p) {
+        if (!is_shared[p]) continue;
+        for (std::size_t a = 0; a < 3; ++a) {
+            slack += largest_of(shared[p][a], radius_of);
+            sizes += largest_of(shared[p][a], size_of);
+            for (std::size_t b = 0; b < 3; ++b) twist[p][a][b] = middle_of(shared[p][a][b]);
+        }
+    }
+    slack += sizes * Interval(0x1p-48);
+    const double middle = middle_of(q.value), lowered = (below + slack).hi, raised = (above + slack).hi;
     set_bounds(
         axes.size(),
         [&](const Digits& digits) {
-            Interval sum = q.value;
-            for (std::size_t k = 0; k < axes.size(); ++k) sum += own[k][digits[k]];
+            double sum = middle, rests = 0;
+            for (std::size_t k = 0; k < axes.size(); ++k) {
+                sum += rise[k][digits[k]];
+                rests += spread[k][digits[k]];
+            }
             for (std::size_t p = 3; p < pairs.size(); ++p)
-                if (is_shared[p]) sum += shared[p][digits[pairs[p][0]]][digits[pairs[p][1]]];
-            return Interval((sum - below).lo, (sum + above).hi);
+                if (is_shared[p]) sum += twist[p][digits[pairs[p][0]]][digits[pairs[p][1]]];
+            return Interval(sum - rests - lowered, sum + rests + raised);
         },
         out);
 }

@@ -11,13 +11,13 @@ namespace frep::measuring {
 std::optional<Quadratic> quadratic_of(const Cell& cell, std::span<const std::size_t> axes, const Jet& whole,
                                       const Jet& middle);
 
-/// How far the piecewise linear bounds of quadratic ones are apart in a cell.
+/// How far the piecewise linear bounds of quadratic ones are apart in a cell, in the mean.
 struct QuadraticGap {
     double rest = 0;  ///< what the rest R adds
     double bend = 0;  ///< what the lines miss of the curves
 };
 QuadraticGap gap_of(const Quadratic& q, const Cell& cell, std::span<const std::size_t> axes);
-/// The same of mean value bounds, about; infinite where there are none.
+/// The same of mean value bounds; infinite where there are none.
 double mean_value_gap(const Cell& cell, std::span<const std::size_t> axes, const Jet& whole);
 
 /// Sets has_planes, lower, upper and gap of `out`, and the sign where they prove it. `cell` is a part of the
