@@ -13,6 +13,8 @@ namespace {
 /// The box has 2^levels cells along its longest side, unless they or the samples in them cost too much.
 constexpr int levels = 7;
 constexpr std::size_t most_cells = 40'000;
+/// Where no sample is changed, cells are divided to this level for one that is, or for a proof.
+constexpr int deepest = 11;
 /// Samples along a side of a cell.
 constexpr std::uint32_t samples_a_cell = BlendSearch::usual_samples >> levels;
 /// Operations on samples at most, about.
@@ -98,7 +100,9 @@ std::vector<BlendSearch::OpenCell> BlendSearch::children(const std::vector<OpenC
             for (std::size_t k = 0; k < box_.axes.size(); ++k) {
                 const std::size_t axis = box_.axes[k];
                 child.at[axis] = 2 * cell.at[axis] + (c >> k & 1u);
-                is_in = is_in && child.at[axis] << (levels - level) < cells_[axis];
+                const std::uint32_t usual = level <= levels ? child.at[axis] << (levels - level)
+                                                            : child.at[axis] >> (level - levels);
+                is_in = is_in && usual < cells_[axis];
             }
             if (is_in) out.push_back(std::move(child));
         }
@@ -162,6 +166,13 @@ Vec3 BlendSearch::place(const SampleIndex& sample) const {
     return {p[0], p[1], p[2]};
 }
 
+/// The operations on samples in the parts of these cells, about: four times those in the cells.
+double BlendSearch::work_of(const std::vector<OpenCell>& cells) {
+    double work = 0;
+    for (const OpenCell& cell : cells) work += 4 * 64 * cost_of(*cell.tape);
+    return work;
+}
+
 BlendMap BlendSearch::run(bool with_parts, const Job& job) {
     BlendMap out;
     std::vector<OpenCell> cells;
@@ -179,21 +190,34 @@ BlendMap BlendSearch::run(bool with_parts, const Job& job) {
             out.acts = true;
             return out;
         }
-        // a level has about four times the work of the one above
-        double work = 0;
-        for (const OpenCell& cell : cells) work += 4 * 64 * cost_of(*cell.tape);
-        if (work > most_work) break;
+        if (work_of(cells) > most_work) break;
         cells = children(cells, level + 1);
     }
     out.finest = samples_a_side(level);
     const std::vector<SampleIndex> changes = changes_in(cells, level, with_parts);
     out.acts = !changes.empty();
-    if (!with_parts || !out.acts) return out;
+    if (!out.acts) return look_closer(std::move(cells), level, job);
+    if (!with_parts) return out;
     out.parts = connected_parts(changes);
     const double least = smallest_part * static_cast<double>(out.parts[0].size());
     std::erase_if(out.parts, [&](const auto& part) {
         return part.size() < fewest_samples || static_cast<double>(part.size()) < least;
     });
+    return out;
+}
+
+/// What cells in which no sample is changed hold after all.
+BlendMap BlendSearch::look_closer(std::vector<OpenCell> cells, int level, const Job& job) {
+    BlendMap out;
+    out.finest = samples_a_side(level);
+    while (level < deepest && cells.size() <= most_cells && work_of(cells) <= most_work && !job.cancelled()) {
+        ++level;
+        cells = judged(children(cells, level), level);
+        out.never_acts = cells.empty();
+        out.acts = !changes_in(cells, level, false).empty();
+        out.finest = samples_a_side(level);
+        if (out.never_acts || out.acts) break;
+    }
     return out;
 }
 

@@ -57,6 +57,8 @@ class BlendSearch {
     void set_lane(BoxLanes& boxes, int lane, const std::array<double, 3>& low, double size) const;
     std::vector<OpenCell> judged(const std::vector<OpenCell>& cells, int level);
     std::vector<OpenCell> children(const std::vector<OpenCell>& cells, int level) const;
+    static double work_of(const std::vector<OpenCell>& cells);
+    BlendMap look_closer(std::vector<OpenCell> cells, int level, const Job& job);
     Vec3 place(const SampleIndex& sample) const;
     bool is_changed_at_middle(const std::vector<OpenCell>& cells, int level);
     std::vector<SampleIndex> changes_in(const std::vector<OpenCell>& cells, int level, bool all);
