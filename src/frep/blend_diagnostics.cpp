@@ -81,7 +81,8 @@ std::optional<Diagnostic> blend_diagnostic(const BlendFinding& found, const Sour
             break;
         case BlendFlaw::unseen:
             d.message = fmt::format(
-                "this blend could not be judged: none of {} samples along the box is changed by it, and there "
+                "this blend could not be judged: none of {} samples along the box is changed by it, and "
+                "there "
                 "is no proof that nothing is",
                 found.samples);
             d.label = "changes nothing that was seen";
@@ -89,7 +90,8 @@ std::optional<Diagnostic> blend_diagnostic(const BlendFinding& found, const Sour
             break;
         case BlendFlaw::coarse:
             d.message = fmt::format(
-                "this blend could only be judged with {} samples along the box: it acts, and nothing wrong was "
+                "this blend could only be judged with {} samples along the box: it acts, and nothing wrong "
+                "was "
                 "seen",
                 found.samples);
             d.label = "needs too much work for more";

@@ -12,15 +12,17 @@ namespace {
 /// The part's function as nodes of `graph`.
 Expression copied(Graph& graph, const ColoredPart& part) {
     const Graph& from = *part.field.graph;
-    const NodeId root = copy_of_root(
-        graph, from, part.field.value, [&](NodeId id, std::span<const NodeId>) -> std::optional<NodeId> {
-            const Node& node = from.node(id);
-            if (node.op == Op::parameter) return graph.constant(part.field.parameters[node.payload]);
-            if (node.op != Op::coordinate) return std::nullopt;
-            for (const auto& [coordinate, value] : part.frozen)
-                if (static_cast<std::uint32_t>(coordinate) == node.payload) return graph.constant(value);
-            return std::nullopt;
-        });
+    const NodeId root = copy_of_root(graph, from, part.field.value,
+                                     [&](NodeId id, std::span<const NodeId>) -> std::optional<NodeId> {
+                                         const Node& node = from.node(id);
+                                         if (node.op == Op::parameter)
+                                             return graph.constant(part.field.parameters[node.payload]);
+                                         if (node.op != Op::coordinate) return std::nullopt;
+                                         for (const auto& [coordinate, value] : part.frozen)
+                                             if (static_cast<std::uint32_t>(coordinate) == node.payload)
+                                                 return graph.constant(value);
+                                         return std::nullopt;
+                                     });
     return {graph, root};
 }
 

@@ -13,8 +13,7 @@ namespace frep {
 
 /// What stands for node `id` of the graph that is copied, a node of the new one; `arguments` are what stands
 /// for its arguments. Nothing: the node itself is copied.
-using NodeReplacement =
-    std::function<std::optional<NodeId>(NodeId id, std::span<const NodeId> arguments)>;
+using NodeReplacement = std::function<std::optional<NodeId>(NodeId id, std::span<const NodeId> arguments)>;
 
 /// Makes the nodes of `from` that are marked in `needed` (closed under arguments) in `to`, with their places
 /// in the text; made[id] receives what stands for node `id`. Both have from.size() items. Equal nodes that

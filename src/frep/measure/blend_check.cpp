@@ -66,15 +66,15 @@ std::vector<BlendFinding> judged(BlendFinding finding, BlendSearch& search, cons
 }
 
 /// True when the blend changes a sample of a coarse lattice.
-Result<bool> changes_few_samples(const Field& change, const MeasuredBox& box,
-                                 const EvaluatorOptions& options, const Job& job) {
+Result<bool> changes_few_samples(const Field& change, const MeasuredBox& box, const EvaluatorOptions& options,
+                                 const Job& job) {
     auto evaluator = make_evaluator(change, options);
     if (!evaluator) return evaluator.error();
     const double step = box.longest / few_samples;
     std::array<std::uint32_t, 3> count{1, 1, 1};
     for (const std::size_t axis : box.axes)
-        count[axis] =
-            std::max(1u, static_cast<std::uint32_t>(std::ceil((box.cell.high[axis] - box.cell.low[axis]) / step)));
+        count[axis] = std::max(
+            1u, static_cast<std::uint32_t>(std::ceil((box.cell.high[axis] - box.cell.low[axis]) / step)));
     std::array<std::vector<double>, 3> columns;
     for (std::uint32_t k = 0; k < count[2] && !job.cancelled(); ++k) {
         for (std::vector<double>& column : columns) column.clear();

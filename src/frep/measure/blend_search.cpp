@@ -100,8 +100,8 @@ std::vector<BlendSearch::OpenCell> BlendSearch::children(const std::vector<OpenC
             for (std::size_t k = 0; k < box_.axes.size(); ++k) {
                 const std::size_t axis = box_.axes[k];
                 child.at[axis] = 2 * cell.at[axis] + (c >> k & 1u);
-                const std::uint32_t usual = level <= levels ? child.at[axis] << (levels - level)
-                                                            : child.at[axis] >> (level - levels);
+                const std::uint32_t usual =
+                    level <= levels ? child.at[axis] << (levels - level) : child.at[axis] >> (level - levels);
                 is_in = is_in && usual < cells_[axis];
             }
             if (is_in) out.push_back(std::move(child));
@@ -118,8 +118,7 @@ bool BlendSearch::is_changed_at_middle(const std::vector<OpenCell>& cells, int l
         for (std::vector<double>& column : columns) column.assign(last - first, 0);
         for (const std::size_t axis : box_.axes)
             for (std::size_t i = first; i < last; ++i)
-                columns[axis][i - first] =
-                    box_.cell.low[axis] + cell_size(level) * (cells[i].at[axis] + 0.5);
+                columns[axis][i - first] = box_.cell.low[axis] + cell_size(level) * (cells[i].at[axis] + 0.5);
         values.resize(last - first);
         const double* points[] = {columns[0].data(), columns[1].data(), columns[2].data()};
         vm_.values(*cells[first].tape, points, values.size(), values.data());
@@ -162,7 +161,8 @@ std::vector<SampleIndex> BlendSearch::changes_in(const std::vector<OpenCell>& ce
 
 Vec3 BlendSearch::place(const SampleIndex& sample) const {
     std::array<double, 3> p{};
-    for (const std::size_t axis : box_.axes) p[axis] = box_.cell.low[axis] + sample_size_ * (sample[axis] + 0.5);
+    for (const std::size_t axis : box_.axes)
+        p[axis] = box_.cell.low[axis] + sample_size_ * (sample[axis] + 0.5);
     return {p[0], p[1], p[2]};
 }
 
@@ -269,7 +269,8 @@ Vec3 BlendSearch::most_changed(const std::vector<SampleIndex>& part) {
     std::vector<double> values(columns[0].size());
     const double* points[] = {columns[0].data(), columns[1].data(), columns[2].data()};
     vm_.values(*change_, points, values.size(), values.data());
-    const auto most = static_cast<std::size_t>(std::max_element(values.begin(), values.end()) - values.begin());
+    const auto most =
+        static_cast<std::size_t>(std::max_element(values.begin(), values.end()) - values.begin());
     return {columns[0][most], columns[1][most], columns[2][most]};
 }
 

@@ -66,7 +66,7 @@ class BlendSearch {
     std::shared_ptr<const ClauseTape> change_;
     ClauseTape joint_;
     MeasuredBox box_;
-    Index cells_{1, 1, 1};   ///< of the smallest size, along each axis
+    Index cells_{1, 1, 1};    ///< of the smallest size, along each axis
     double sample_size_ = 0;  ///< distance of samples that are next to each other
     Pruner pruner_;
     CutResult cut_;

@@ -106,8 +106,7 @@ void CellJudge::judge_by_tape(std::span<const Cell> cells, std::shared_ptr<const
             const int number = cut_.tape_of[i];
             if (number < 0) continue;
             auto& cut = made[static_cast<std::size_t>(number)];
-            if (!cut)
-                cut = std::make_shared<const ClauseTape>(cut_.tapes[static_cast<std::size_t>(number)]);
+            if (!cut) cut = std::make_shared<const ClauseTape>(cut_.tapes[static_cast<std::size_t>(number)]);
             out[i].source.tape = cut;
         }
     }

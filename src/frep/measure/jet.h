@@ -55,7 +55,7 @@ class JetMachine {
     bool with_second_ = true;
     /// Of operations that are defined by formulas, over their operands as coordinates; null: it has none.
     std::map<Op, std::unique_ptr<ClauseTape>> formulas_;
-    std::unique_ptr<JetMachine> inner_;                   ///< runs formulas
+    std::unique_ptr<JetMachine> inner_;  ///< runs formulas
 };
 
 }  // namespace frep::measuring

@@ -69,12 +69,10 @@ class Rules {
         // q' = (a' - q b') / b, q'' = (a'' - q b'' - q' b' - b' q') / b
         Jet out = start(a.moves | b.moves);
         const Interval q = plain(value_);
-        each_first(out, [&](std::size_t i) {
-            return times(inverse, plain(a.first[i] - times(q, b.first[i])));
-        });
+        each_first(out,
+                   [&](std::size_t i) { return times(inverse, plain(a.first[i] - times(q, b.first[i]))); });
         each_second(out, [&](std::size_t p, std::size_t i, std::size_t j) {
-            const Interval mixed =
-                plus(times(out.first[i], b.first[j]), times(out.first[j], b.first[i]));
+            const Interval mixed = plus(times(out.first[i], b.first[j]), times(out.first[j], b.first[i]));
             return times(inverse, plain(a.second[p] - times(q, b.second[p]) - mixed));
         });
         return out;
@@ -111,8 +109,8 @@ class Rules {
         return one_of(a, negative(a));
     }
 
-    /// k a + k b + sign * sqrt(a^2 + b^2), whose root is a cone over (a, b): k = 0 for the length alone, 1 for
-    /// R-functions. The second derivative of a cone is w w' / h^3 with w = b grad a - a grad b.
+    /// k a + k b + sign * sqrt(a^2 + b^2), whose root is a cone over (a, b): k = 0 for the length alone, 1
+    /// for R-functions. The second derivative of a cone is w w' / h^3 with w = b grad a - a grad b.
     Jet cone(const Jet& a, const Jet& b, double k, double sign) const {
         const Interval u = plain(a.value), v = plain(b.value), h = plain(math::hypot(u, v));
         Jet out = start(a.moves | b.moves);
@@ -175,7 +173,8 @@ class Rules {
             return whole ? plain(math::powi(base, static_cast<int>(exponent)))
                          : plain(math::pow(base, Interval(exponent)));
         };
-        return chain(b, times(Interval(e), to(e - 1)), times(times(Interval(e), Interval(e) - Interval(1.0)), to(e - 2)));
+        return chain(b, times(Interval(e), to(e - 1)),
+                     times(times(Interval(e), Interval(e) - Interval(1.0)), to(e - 2)));
     }
 
     Jet choice(const Jet& condition, const Jet& a, const Jet& b) const {

@@ -25,7 +25,8 @@ struct MeasuredBox {
     double longest = 0;             ///< side along one of them
 };
 
-/// `box` along `axes`. Error invalid_argument: a side that is not > 0 or has no end, fewer than `fewest` axes.
+/// `box` along `axes`. Error invalid_argument: a side that is not > 0 or has no end, fewer than `fewest`
+/// axes.
 Result<MeasuredBox> measured_box(const Box3& box, const std::array<bool, 3>& axes, std::size_t fewest = 0);
 
 }  // namespace frep::measuring

@@ -50,8 +50,8 @@ std::array<double, 3> halves(const Cell& cell, std::span<const std::size_t> axes
     std::array<double, 3> out{};
     for (std::size_t k = 0; k < axes.size(); ++k) {
         const Interval middle = cell.middle(axes[k]);
-        out[k] = std::max((Interval(cell.high[axes[k]]) - middle).hi,
-                          (middle - Interval(cell.low[axes[k]])).hi);
+        out[k] =
+            std::max((Interval(cell.high[axes[k]]) - middle).hi, (middle - Interval(cell.low[axes[k]])).hi);
     }
     return out;
 }
@@ -131,8 +131,8 @@ void set_quadratic_bounds(const Quadratic& q, const Cell& cell, std::span<const 
     std::array<std::array<std::array<Interval, 3>, 3>, 6> shared;
     std::array<bool, 6> is_shared{};
     Interval below = 0, above = 0;
-    // R is at most a diagonal matrix: |t_i| |t_j| <= (t_i^2 l_j/l_i + t_j^2 l_i/l_j) / 2, equal where |t| = l.
-    // Squares are below their lines.
+    // R is at most a diagonal matrix: |t_i| |t_j| <= (t_i^2 l_j/l_i + t_j^2 l_i/l_j) / 2, equal where |t| =
+    // l. Squares are below their lines.
     std::array<Interval, 3> rest;
     std::array<std::array<Interval, 3>, 3> off;
     for (std::size_t p = 0; p < pairs.size(); ++p) {
@@ -157,8 +157,7 @@ void set_quadratic_bounds(const Quadratic& q, const Cell& cell, std::span<const 
         }
     }
     for (std::size_t k = 0; k < axes.size(); ++k)
-        for (std::size_t a = 0; a < 3; ++a)
-            off[k][a] = Interval(0.5) * rest[k] * math::square(ways[k][a]);
+        for (std::size_t a = 0; a < 3; ++a) off[k][a] = Interval(0.5) * rest[k] * math::square(ways[k][a]);
     // The sums of the lattice in doubles: fewer than 16 additions, each within 2^-53 of the sizes' sum.
     Interval slack = Interval(radius_of(q.value)), sizes = Interval(size_of(q.value)) + below + above;
     std::array<std::array<double, 3>, 3> rise{}, spread{};

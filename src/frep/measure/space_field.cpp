@@ -36,8 +36,8 @@ Result<Field> field_in_space(const Field& field, const AxisMap& map) {
     const Graph& from = *bound.graph;
     Graph to;
     std::optional<std::uint32_t> missing;
-    const NodeId root = copy_of_root(
-        to, from, bound.value, [&](NodeId id, std::span<const NodeId>) -> std::optional<NodeId> {
+    const NodeId root =
+        copy_of_root(to, from, bound.value, [&](NodeId id, std::span<const NodeId>) -> std::optional<NodeId> {
             const Node& node = from.node(id);
             if (node.op != Op::coordinate) return std::nullopt;
             if (node.payload >= map.coordinates.size()) {
@@ -48,8 +48,7 @@ Result<Field> field_in_space(const Field& field, const AxisMap& map) {
             return c.axis < 0 ? to.constant(c.value) : to.coordinate(c.axis);
         });
     if (missing)
-        return wrong(
-            fmt::format("the model uses coordinate {} of {}", *missing + 1, map.coordinates.size()));
+        return wrong(fmt::format("the model uses coordinate {} of {}", *missing + 1, map.coordinates.size()));
     if (to.over_limit()) return Error{ErrorKind::over_limit, "the model has too many operations"};
     Field out;
     out.value = root;

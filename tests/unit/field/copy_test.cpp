@@ -26,18 +26,19 @@ TEST_CASE("what is replaced changes what is above it, and constants fold") {
     const Expression x(from, from.coordinate(0)), y(from, from.coordinate(1));
     const Expression f = x * x + y;
     Graph to;
-    const NodeId copy = copy_of_root(
-        to, from, f.id(), [&](NodeId id, std::span<const NodeId>) -> std::optional<NodeId> {
+    const NodeId copy =
+        copy_of_root(to, from, f.id(), [&](NodeId id, std::span<const NodeId>) -> std::optional<NodeId> {
             if (id == x.id()) return to.constant(3);
             return std::nullopt;
         });
     REQUIRE(to.node(copy).op == Op::add);
     bool has_nine = false;
-    for (const NodeId argument : to.arguments(copy)) has_nine = has_nine || to.constant_value(argument) == 9.0;
+    for (const NodeId argument : to.arguments(copy))
+        has_nine = has_nine || to.constant_value(argument) == 9.0;
     CHECK(has_nine);
     // a node may be made of the copies of its arguments
-    const NodeId other = copy_of_root(
-        to, from, f.id(), [&](NodeId id, std::span<const NodeId> a) -> std::optional<NodeId> {
+    const NodeId other =
+        copy_of_root(to, from, f.id(), [&](NodeId id, std::span<const NodeId> a) -> std::optional<NodeId> {
             if (from.node(id).op != Op::add) return std::nullopt;
             return to.make(Op::max, {a[0], a[1]});
         });

@@ -48,9 +48,9 @@ bool is_idle_in(const BlendFields& fields, double low, double high) {
 TEST_CASE("the change of a fillet in a corner, and its joint") {
     const Field field = space_field_of("my_model = hfBlendUni(-x[1], -x[2], 0.2, 1, 1);");
     const BlendFields fields = blend_fields(field, blend_of(field));
-    CHECK(value_at(fields.change, 0.02, 0.02) > 0);   // added
-    CHECK(value_at(fields.change, 0.9, 0.9) < 0);     // outside of both
-    CHECK(value_at(fields.change, -0.1, 0.02) < 0);   // inside of both
+    CHECK(value_at(fields.change, 0.02, 0.02) > 0);  // added
+    CHECK(value_at(fields.change, 0.9, 0.9) < 0);    // outside of both
+    CHECK(value_at(fields.change, -0.1, 0.02) < 0);  // inside of both
     CHECK(value_at(fields.joint, 0, 0) == 0);
     CHECK(value_at(fields.joint, 0, 0.3) < 0);
 }

@@ -130,9 +130,9 @@ TEST_CASE("jets over boxes hold those of all their points") {
 
 TEST_CASE("at creases the gradient holds both sides, the second derivatives nothing") {
     const Interval side(-1.0, 1.0);
-    for (const char* body : {"my_model = min(x[1], 2*x[2]);", "my_model = max(3*x[1], -x[2]);",
-                             "my_model = abs(x[1]) + x[2];", "my_model = x[1] & x[2];",
-                             "my_model = x[1] | (x[2] - x[1]);"}) {
+    for (const char* body :
+         {"my_model = min(x[1], 2*x[2]);", "my_model = max(3*x[1], -x[2]);", "my_model = abs(x[1]) + x[2];",
+          "my_model = x[1] & x[2];", "my_model = x[1] | (x[2] - x[1]);"}) {
         CAPTURE(body);
         const Jet jet = jet_over(body, {side, side, side});
         CHECK(jet.second[0].hi == math::infinity);
@@ -157,7 +157,8 @@ TEST_CASE("a function that jumps has no derivatives, and one that does not has")
         CHECK(jet.first[0].hi == math::infinity);
     }
     CHECK(jet_over("my_model = floor(x[1]);", {Interval(0.1, 0.9), side, side}).moves == 0);
-    const Jet taken = jet_over("f = 1; if (x[1] < 3) then f = x[1]; endif; my_model = f;", {side, side, side});
+    const Jet taken =
+        jet_over("f = 1; if (x[1] < 3) then f = x[1]; endif; my_model = f;", {side, side, side});
     CHECK(taken.first[0].contains(1));
     CHECK(taken.first[0].hi < 1.1);
 }
