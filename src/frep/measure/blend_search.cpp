@@ -45,7 +45,8 @@ double BlendSearch::cell_size(int level) const { return box_.longest / (1u << le
 
 std::uint32_t BlendSearch::samples_a_side(int level) const { return samples_a_cell << level; }
 
-void BlendSearch::set_lane(BoxLanes& boxes, int lane, const std::array<double, 3>& low, double size) const {
+void BlendSearch::set_lane(BoxLanes& boxes, std::size_t lane, const std::array<double, 3>& low,
+                           double size) const {
     for (std::size_t axis = 0; axis < 3; ++axis) boxes.lo[axis][lane] = boxes.hi[axis][lane] = 0;
     for (const std::size_t axis : box_.axes) {
         boxes.lo[axis][lane] = low[axis];
@@ -66,7 +67,7 @@ std::vector<BlendSearch::OpenCell> BlendSearch::judged(const std::vector<OpenCel
             std::array<double, 3> low{};
             for (const std::size_t axis : box_.axes)
                 low[axis] = box_.cell.low[axis] + cell_size(level) * cells[i].at[axis];
-            set_lane(boxes, static_cast<int>(i - first), low, cell_size(level));
+            set_lane(boxes, i - first, low, cell_size(level));
         }
         pruner_.cut(tape, boxes, Purpose::occupancy, cut_);
         std::array<std::shared_ptr<const ClauseTape>, tile_lanes> made;
@@ -234,7 +235,7 @@ bool BlendSearch::touches_joint(const std::vector<SampleIndex>& part) {
                 std::array<double, 3> low{};
                 for (const std::size_t axis : box_.axes)
                     low[axis] = box_.cell.low[axis] + sample_size_ * (corners[first + i][axis] - 1.0);
-                set_lane(boxes, static_cast<int>(i), low, sample_size_ * (side + 2));
+                set_lane(boxes, i, low, sample_size_ * (side + 2));
             }
             pruner_.ranges(joint_, boxes, ranges);
             for (std::size_t i = 0; i < count; ++i)

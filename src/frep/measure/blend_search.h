@@ -54,7 +54,7 @@ class BlendSearch {
     };
     double cell_size(int level) const;
     std::uint32_t samples_a_side(int level) const;
-    void set_lane(BoxLanes& boxes, int lane, const std::array<double, 3>& low, double size) const;
+    void set_lane(BoxLanes& boxes, std::size_t lane, const std::array<double, 3>& low, double size) const;
     std::vector<OpenCell> judged(const std::vector<OpenCell>& cells, int level);
     std::vector<OpenCell> children(const std::vector<OpenCell>& cells, int level) const;
     static double work_of(const std::vector<OpenCell>& cells);

@@ -62,6 +62,36 @@ Jet JetMachine::run_formula(const ClauseTape& formula, std::span<const Jet* cons
     return inner_->run_loaded(formula, with_second_);
 }
 
+Jet JetMachine::run_point_blend(Op op, const ClauseTape& formula, std::span<const Jet* const> operands) {
+    std::array<Jet, 2> near{*operands[0], *operands[1]};
+    bool is_near = true, is_reached = true;
+    for (std::size_t k = 0; k < 2; ++k) {
+        const Jet& extent = *operands[3 + k];
+        if (extent.moves != 0) continue;
+        // a little more, for what engines round
+        const double most = (math::abs(extent.value) * Interval(1 + 0x1p-40)).hi;
+        is_near = is_near && near[k].value.lo >= -most && near[k].value.hi <= most;
+        near[k].value = cut(near[k].value, {-most, most});
+        is_reached = is_reached && !near[k].value.is_empty();
+    }
+    if (is_near) return run_formula(formula, operands);
+    const Op plain = op == Op::point_uni ? Op::r_or : Op::r_and;
+    const std::array<Interval, 2> values{operands[0]->value, operands[1]->value};
+    const Interval value = meaning<Interval>(plain, std::span<const Interval>(values), {});
+    Jet out = *jet_of(plain, value, operands.first(2), with_second_);
+    if (!is_reached) return out;
+    const std::array<const Jet*, 5> inner{&near[0], &near[1], operands[2], operands[3], operands[4]};
+    const Jet blended = run_formula(formula, inner);
+    const auto either = [](Interval& a, const Interval& b) {
+        a = {std::min(a.lo, b.lo), std::max(a.hi, b.hi), a.maybe_undefined || b.maybe_undefined};
+    };
+    either(out.value, blended.value);
+    out.moves |= blended.moves;
+    for (std::size_t k = 0; k < out.first.size(); ++k) either(out.first[k], blended.first[k]);
+    for (std::size_t k = 0; k < out.second.size(); ++k) either(out.second[k], blended.second[k]);
+    return out;
+}
+
 Jet JetMachine::apply(const ClauseTape& tape, const Clause& clause) {
     const std::span<const RowNumber> numbers = tape.operands_of(clause);
     std::array<const Jet*, most_operands> few{};
@@ -82,7 +112,8 @@ Jet JetMachine::apply(const ClauseTape& tape, const Clause& clause) {
     if (moves == 0) return {value, {}, {}, 0};
     if (const auto jet = jet_of(clause.op, value, jets, with_second_)) return *jet;
     if (const ClauseTape* formula = formula_of(clause.op, numbers.size())) {
-        Jet jet = run_formula(*formula, jets);
+        const bool by_points = clause.op == Op::point_uni || clause.op == Op::point_int;
+        Jet jet = by_points ? run_point_blend(clause.op, *formula, jets) : run_formula(*formula, jets);
         if (jet.value.is_empty() || jet.value.maybe_undefined) return unknown_jet(value, moves);
         jet.value = cut(value, jet.value);
         return jet;

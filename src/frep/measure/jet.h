@@ -44,6 +44,9 @@ class JetMachine {
     void load(const ClauseData& data);
     Jet apply(const ClauseTape& tape, const Clause& clause);
     Jet run_formula(const ClauseTape& formula, std::span<const Jet* const> operands);
+    /// A blend by points or extents is the plain set operation but where both operands are within their
+    /// extents; there its displacement begins with derivatives of 0.
+    Jet run_point_blend(Op op, const ClauseTape& formula, std::span<const Jet* const> operands);
     const ClauseTape* formula_of(Op op, std::size_t operands);
     const Jet& row(RowNumber number) const;
 

@@ -233,7 +233,7 @@ Jet unknown_jet(const Interval& value, std::uint8_t moves) {
 
 std::optional<Jet> jet_of(Op op, const Interval& value, std::span<const Jet* const> a, bool with_second) {
     const Rules rules(value, with_second);
-    const Interval one(1.0), two(2.0), zero(0.0);
+    const Interval one(1.0), two(2.0);
     const Interval x = plain(a[0]->value), f = plain(value);
     switch (op) {
         case Op::add:

@@ -48,6 +48,8 @@ constexpr const char* smooth[] = {
     "hfBlendUni(x[1] - 0.5, x[2]*x[3] - 0.4, 0.3, 0.5, 0.7)",
     "hfBlendInt(x[1] - 0.5, x[2] - x[3], -0.3, 0.5, 0.7)",
     "hfPointBlendUni(x[1] - 0.95, x[2]*x[3] - 0.9, 0.2, 2, 3)",
+    "hfPointBlendUni(x[1] - 0.95, x[2]*x[3] - 0.9, 0.2, 0.5, 0.6)",
+    "hfPointBlendInt(x[1] - 0.3, x[2] - 0.4, -0.2, 0.3, 0.3)",
     "hfBoundedBlendUni(x[1] - 0.5, x[2] - 0.95, x[3], 0.2, 0.3, 0.4, 0.5)",
 };
 
