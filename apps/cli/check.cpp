@@ -1,6 +1,5 @@
 // `frep check`: the mistakes of a model's text, those that only show when its objects are lowered, and what
 // its blends do to the shape. Tested by tests/cli/check.txt.
-#include <cctype>
 #include <optional>
 
 #include <fmt/format.h>
@@ -65,61 +64,6 @@ Json report(const Diagnostics& findings, const Source& source) {
             {"warnings", warnings},         {"diagnostics", std::move(list)}};
 }
 
-/// The word that a call begins with at this place of the text, in lower case.
-std::string called_name(const Source& source, Span span) {
-    const std::string_view text = source.text(span);
-    std::size_t end = 0;
-    while (end < text.size() &&
-           (std::isalnum(static_cast<unsigned char>(text[end])) != 0 || text[end] == '_'))
-        ++end;
-    return lower_case(text.substr(0, end));
-}
-
-/// What the geometry says of a blend, or nothing: fillets and blends by extents are meant for every edge that
-/// the two solids have in common, blends between control points for one.
-std::optional<Diagnostic> blend_diagnostic(const BlendFinding& found, const Source& source,
-                                           const std::array<bool, 3>& axes) {
-    const auto text = [&](const Vec3& p) {
-        const std::array<double, 3> all{p.x, p.y, p.z};
-        std::string out;
-        for (std::size_t axis = 0; axis < 3; ++axis)
-            if (axes[axis]) out += fmt::format("{}{:.4g}", out.empty() ? "(" : ", ", all[axis]);
-        return out + ")";
-    };
-    Diagnostic d;
-    d.severity = Severity::warning;
-    d.span = found.origin;
-    switch (found.flaw) {
-        case BlendFlaw::never_acts:
-            d.message = "this blend changes nothing: the shape is that of the plain set operation";
-            d.label = "never reaches the surface";
-            d.help =
-                "the two surfaces do not meet where it acts, or what it adds lies inside the rest of the "
-                "model; "
-                "check the bounding solid and the extents";
-            return d;
-        case BlendFlaw::second_place:
-            if (!called_name(source, found.origin).starts_with("hfcontrolblend")) return std::nullopt;
-            d.message = fmt::format("this blend also acts at {}, apart from {}", text(found.place),
-                                    text(found.first_place));
-            d.label = "acts at a second place";
-            d.help =
-                "a blend between control points acts wherever the two surfaces are that near; "
-                "hfBoundedBlendUni and its relatives choose one place by a bounding solid";
-            return d;
-        case BlendFlaw::through_wall:
-            d.message = fmt::format("the bounding solid of this blend reaches another surface at {}",
-                                    text(found.place));
-            d.label = "moves a surface away from the joint";
-            d.help = fmt::format(
-                "the joint is near {}; make the bounding solid smaller, cut it with the outer surface, "
-                "or blend before the hollow is taken out",
-                text(found.first_place));
-            return d;
-    }
-    return std::nullopt;
-}
-
 /// The findings of --blends for the default object with its default parameters, or an exit code.
 int add_blend_findings(const ModelOptions& options, const std::optional<std::string>& bounds,
                        Diagnostics& out) {
@@ -135,10 +79,6 @@ int add_blend_findings(const ModelOptions& options, const std::optional<std::str
     const auto prepared = prepare_model(options, code);
     voice().quiet = was_quiet;
     if (!prepared) return code;
-    if (has_regions(prepared->field())) {
-        print_note("--blends: the model has loops that depend on the point; its blends were not looked at");
-        return exit_ok;
-    }
     const auto sampled = sampled_field(*prepared);
     if (!sampled) return fail(sampled.error());
     Job job;

@@ -14,6 +14,7 @@
 #include "frep/base/job.h"
 #include "frep/base/parallel.h"
 #include "frep/base/result.h"
+#include "frep/blend_diagnostics.h"
 #include "frep/contour/adaptive.h"
 #include "frep/contour/bounds.h"
 #include "frep/contour/contour.h"

@@ -2,6 +2,7 @@
 #include "frep/field/colored_union.h"
 
 #include "frep/base/result.h"
+#include "frep/field/copy.h"
 #include "frep/field/expression.h"
 
 namespace frep {
@@ -11,26 +12,18 @@ namespace {
 /// The part's function as nodes of `graph`.
 Expression copied(Graph& graph, const ColoredPart& part) {
     const Graph& from = *part.field.graph;
-    const NodeId roots[] = {part.field.value};
-    const std::vector<bool> needed = reachable(from, roots);
-    std::vector<NodeId> made(from.size(), 0), arguments;
-    std::vector<std::uint32_t> block_names;
-    for (NodeId id = 0; id < from.size(); ++id) {
-        if (!needed[id]) continue;
-        const Node& node = from.node(id);
-        if (node.op == Op::parameter) {
-            made[id] = graph.constant(part.field.parameters[node.payload]);
-            continue;
-        }
-        arguments.clear();
-        for (const NodeId argument : from.arguments(id)) arguments.push_back(made[argument]);
-        graph.set_origin(from.origin(id));
-        made[id] = graph.make_as(from, id, arguments, block_names);
-        if (node.op != Op::coordinate) continue;
-        for (const auto& [coordinate, value] : part.frozen)
-            if (static_cast<std::uint32_t>(coordinate) == node.payload) made[id] = graph.constant(value);
-    }
-    return {graph, made[part.field.value]};
+    const NodeId root = copy_of_root(graph, from, part.field.value,
+                                     [&](NodeId id, std::span<const NodeId>) -> std::optional<NodeId> {
+                                         const Node& node = from.node(id);
+                                         if (node.op == Op::parameter)
+                                             return graph.constant(part.field.parameters[node.payload]);
+                                         if (node.op != Op::coordinate) return std::nullopt;
+                                         for (const auto& [coordinate, value] : part.frozen)
+                                             if (static_cast<std::uint32_t>(coordinate) == node.payload)
+                                                 return graph.constant(value);
+                                         return std::nullopt;
+                                     });
+    return {graph, root};
 }
 
 }  // namespace

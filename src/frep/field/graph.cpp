@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "frep/base/result.h"
+#include "frep/field/copy.h"
 #include "frep/field/field.h"
 #include "frep/field/meaning.h"
 #include "frep/field/region.h"
@@ -401,17 +402,10 @@ NodeId Graph::make_as(const Graph& from, NodeId id, std::span<const NodeId> args
 Graph Graph::bound_copy(const std::vector<bool>& needed, std::span<const double> parameters,
                         std::span<NodeId> renamed) const {
     Graph out;
-    std::vector<std::uint32_t> block_names;
-    std::vector<NodeId> args;
-    for (NodeId id = 0; id < nodes_.size(); ++id) {
-        if (!needed[id]) continue;
-        const Node& n = nodes_[id];
-        args.clear();
-        for (const NodeId argument : arguments(id)) args.push_back(renamed[argument]);
-        out.origin_ = origins_[id];
-        renamed[id] = n.op == Op::parameter ? out.constant(parameters[n.payload])
-                                            : out.make_as(*this, id, args, block_names);
-    }
+    copy_nodes(out, *this, needed, renamed, [&](NodeId id, std::span<const NodeId>) {
+        return nodes_[id].op == Op::parameter ? std::optional(out.constant(parameters[nodes_[id].payload]))
+                                              : std::nullopt;
+    });
     return out;
 }
 

@@ -26,6 +26,7 @@ enum class Proof : std::uint8_t {
     lowering,   ///< the code comes from lowering, tested with it
     vm_text,    ///< parse_vm_text(wrong) gives the code, parse_vm_text(right) gives nothing
     advice,     ///< Model::advise() gives the code for the lowered wrong example, nothing for the right one
+    blends,     ///< check_blends() gives the code for the wrong example, nothing for the right one
 };
 
 /// What the table says of a code.

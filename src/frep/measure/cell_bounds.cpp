@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "frep/field/derivative.h"
+#include "frep/measure/quadratic.h"
 
 namespace frep::measuring {
 
@@ -12,32 +12,15 @@ namespace {
 
 using math::Interval;
 
-/// Larger values and slopes give no planes.
-constexpr double largest = 1e150;
+/// Tapes of no more clauses are not pruned: their jets are found as soon.
+constexpr std::size_t short_tape = 6;
 
-bool is_usable(const Interval& v) {
-    return !v.is_empty() && !v.maybe_undefined && v.lo > -largest && v.hi < largest;
-}
+/// The parts of a cell take their bounds from the cell's where the rest is this share of the gap at most.
+bool serves_parts(const QuadraticGap& gap) { return gap.rest <= 0.2 * (gap.rest + gap.bend); }
 
-/// The derivatives of F by the measured axes, each as a field; nothing where one cannot be had.
-std::vector<Field> slope_fields(const Field& field, const std::vector<std::size_t>& axes) {
-    std::vector<bool> all(field.graph->size(), true);
-    std::vector<NodeId> renamed(field.graph->size());
-    Graph graph = field.graph->copy_of(all, renamed);
-    std::vector<Expression> variables;
-    for (const std::size_t axis : axes)
-        variables.emplace_back(graph, graph.coordinate(static_cast<int>(axis)));
-    const auto slopes = derivatives(Expression(graph, renamed[field.value]), variables);
-    if (!slopes || graph.over_limit()) return {};
-    std::vector<Field> out;
-    for (const Expression& slope : *slopes) {
-        NodeId root = slope.id();
-        Field one = field;
-        one.graph = std::make_shared<const Graph>(compact(graph, {&root, 1}));
-        one.value = root;
-        out.push_back(std::move(one));
-    }
-    return out;
+CellSign sign_of(const Interval& f) {
+    if (f.is_empty() || f.hi < 0) return CellSign::outside;
+    return f.surely_not_negative() ? CellSign::inside : CellSign::open;
 }
 
 }  // namespace
@@ -45,108 +28,112 @@ std::vector<Field> slope_fields(const Field& field, const std::vector<std::size_
 Result<CellJudge> CellJudge::make(const Field& field, std::vector<std::size_t> axes,
                                   const EvaluatorOptions& options) {
     CellJudge judge;
+    judge.axes_ = std::move(axes);
+    if (auto tape = make_clause_tape(field)) {
+        judge.tape_ = std::make_shared<const ClauseTape>(std::move(*tape));
+        return judge;
+    }
     auto value = make_evaluator(field, options);
     if (!value) return value.error();
     judge.value_ = std::move(*value);
-    for (const Field& slope : slope_fields(field, axes)) {
-        auto evaluator = make_evaluator(slope, options);
-        if (!evaluator) return evaluator.error();
-        judge.slopes_.push_back(std::move(*evaluator));
-    }
-    judge.axes_ = std::move(axes);
     return judge;
 }
 
 CellJudge CellJudge::clone() const {
     CellJudge copy;
     copy.axes_ = axes_;
-    copy.value_ = value_->clone();
-    for (const auto& slope : slopes_) copy.slopes_.push_back(slope->clone());
+    copy.tape_ = tape_;
+    if (value_) copy.value_ = value_->clone();
     return copy;
 }
 
-std::vector<Interval> CellJudge::ranges(Evaluator& evaluator, const Columns& boxes) {
-    std::array<const Interval*, 3> columns{};
-    for (std::size_t axis = 0; axis < 3; ++axis) columns[axis] = boxes[axis].data();
-    std::vector<Interval> out(boxes[0].size());
-    evaluator.intervals(columns, out.size(), out.data());
-    return out;
+void CellJudge::judge(std::span<const Cell> cells, std::span<const CellSource> sources,
+                      std::span<CellBounds> out) {
+    if (!tape_) return judge_by_ranges(cells, out);
+    for (std::size_t first = 0, last = 0; first < cells.size(); first = last) {
+        last = first + 1;
+        if (sources[first].quadratic) {
+            out[first] = {};
+            out[first].source = sources[first];
+            const Quadratic& q = *sources[first].quadratic;
+            set_quadratic_bounds(q, cells[first], axes_, out[first]);
+            if (!serves_parts(gap_of(q, cells[first], axes_))) out[first].source.quadratic = nullptr;
+            continue;
+        }
+        while (last < cells.size() && last - first < tile_lanes && !sources[last].quadratic &&
+               sources[last].tape == sources[first].tape)
+            ++last;
+        judge_by_tape(cells.subspan(first, last - first), sources[first].tape ? sources[first].tape : tape_,
+                      out.subspan(first, last - first));
+    }
 }
 
-void CellJudge::judge(std::span<const Cell> cells, std::span<CellBounds> out) {
-    Columns boxes;
+void CellJudge::judge_by_ranges(std::span<const Cell> cells, std::span<CellBounds> out) {
+    std::array<std::vector<Interval>, 3> boxes;
     for (std::size_t axis = 0; axis < 3; ++axis)
         for (const Cell& cell : cells) boxes[axis].emplace_back(cell.low[axis], cell.high[axis]);
-    const std::vector<Interval> found = ranges(*value_, boxes);
-    std::vector<std::size_t> open;
+    const Interval* columns[] = {boxes[0].data(), boxes[1].data(), boxes[2].data()};
+    std::vector<Interval> found(cells.size());
+    value_->intervals(columns, found.size(), found.data());
     for (std::size_t i = 0; i < cells.size(); ++i) {
         out[i] = {};
-        const Interval& f = found[i];
-        if (f.is_empty() || f.hi < 0) {
-            out[i].sign = CellSign::outside;
-        } else if (f.surely_not_negative()) {
-            out[i].sign = CellSign::inside;
-        } else {
-            out[i].maybe_undefined = f.maybe_undefined;
-            if (is_usable(f)) open.push_back(i);
-        }
+        out[i].sign = sign_of(found[i]);
+        out[i].maybe_undefined = found[i].maybe_undefined;
     }
-    if (has_derivatives() && !open.empty()) add_planes(cells, open, out);
 }
 
-void CellJudge::add_planes(std::span<const Cell> cells, std::span<const std::size_t> open,
-                           std::span<CellBounds> out) {
-    // The box of the k-th derivative: the cell along the axes up to the k-th, its middle along the others.
-    Columns boxes;
-    for (std::size_t axis = 0; axis < 3; ++axis)
-        for (const std::size_t i : open) boxes[axis].emplace_back(cells[i].middle(axis));
-    const std::vector<Interval> middles = ranges(*value_, boxes);
-    std::vector<std::vector<Interval>> slopes;
-    for (std::size_t k = 0; k < axes_.size(); ++k) {
-        const std::size_t axis = axes_[k];
-        for (std::size_t n = 0; n < open.size(); ++n)
-            boxes[axis][n] = {cells[open[n]].low[axis], cells[open[n]].high[axis]};
-        slopes.push_back(ranges(*slopes_[k], boxes));
+void CellJudge::judge_by_tape(std::span<const Cell> cells, std::shared_ptr<const ClauseTape> tape,
+                              std::span<CellBounds> out) {
+    for (CellBounds& one : out) {
+        one = {};
+        one.source.tape = tape;
     }
-    for (std::size_t n = 0; n < open.size(); ++n) {
-        bool usable = is_usable(middles[n]);
-        for (const auto& column : slopes) usable = usable && is_usable(column[n]);
-        if (!usable) continue;
-        const Cell& cell = cells[open[n]];
-        CellBounds& bounds = out[open[n]];
-        std::array<std::array<Interval, 3>, 3> rise{};  // of the plane, from the middle to low, middle, high
-        std::array<std::array<double, 3>, 3> error{};   // at most, on the way
-        for (std::size_t k = 0; k < axes_.size(); ++k) {
-            const Interval slope = slopes[k][n], c = cell.middle(axes_[k]);
-            const double plane = slope.lo + 0.5 * (slope.hi - slope.lo);
-            const Interval spread = math::abs(slope - Interval(plane));
-            for (const std::size_t place : {std::size_t{0}, std::size_t{2}}) {
-                const Interval way = Interval(place == 0 ? cell.low[axes_[k]] : cell.high[axes_[k]]) - c;
-                rise[k][place] = Interval(plane) * way;
-                error[k][place] = (spread * math::abs(way)).hi;
-                bounds.gap[k] = std::max(bounds.gap[k], error[k][place]);
+    if (tape->clauses.size() > short_tape) {
+        BoxLanes boxes;
+        boxes.count = static_cast<int>(cells.size());
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            for (std::size_t i = 0; i < cells.size(); ++i) {
+                boxes.lo[axis][i] = cells[i].low[axis];
+                boxes.hi[axis][i] = cells[i].high[axis];
             }
         }
-        bool all_inside = true, all_outside = true;
-        bounds.has_planes = true;
-        const std::size_t points = axes_.size() == 2 ? 9 : 27;
-        for (std::size_t point = 0; point < points; ++point) {
-            Interval change = 0, gap = 0;
-            for (std::size_t k = 0, digits = point; k < axes_.size(); ++k, digits /= 3) {
-                change += rise[k][digits % 3];
-                gap += Interval(error[k][digits % 3]);
-            }
-            const double low = (middles[n] + change - Interval(gap.hi)).lo;
-            const double high = (middles[n] + change + Interval(gap.hi)).hi;
-            bounds.lower[point] = low;
-            bounds.upper[point] = high;
-            all_inside = all_inside && low >= 0;
-            all_outside = all_outside && high < 0;
-            bounds.has_planes = bounds.has_planes && is_usable({low, high});
+        pruner_.cut(*tape, boxes, Purpose::occupancy, cut_);
+        std::array<std::shared_ptr<const ClauseTape>, tile_lanes> made;
+        for (std::size_t i = 0; i < cells.size(); ++i) {
+            const unsigned lane = 1u << i;
+            if ((cut_.ranges.can_be_inside & lane) == 0) out[i].sign = CellSign::outside;
+            if ((cut_.ranges.can_be_outside & lane) == 0) out[i].sign = CellSign::inside;
+            const int number = cut_.tape_of[i];
+            if (number < 0) continue;
+            auto& cut = made[static_cast<std::size_t>(number)];
+            if (!cut) cut = std::make_shared<const ClauseTape>(cut_.tapes[static_cast<std::size_t>(number)]);
+            out[i].source.tape = cut;
         }
-        if (!bounds.has_planes) continue;
-        if (all_inside) bounds.sign = CellSign::inside;
-        if (all_outside) bounds.sign = CellSign::outside;
+    }
+    for (std::size_t i = 0; i < cells.size(); ++i)
+        if (out[i].sign == CellSign::open) add_bounds(cells[i], out[i]);
+}
+
+void CellJudge::add_bounds(const Cell& cell, CellBounds& out) {
+    std::array<Interval, 3> box, point;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        box[axis] = {cell.low[axis], cell.high[axis]};
+        point[axis] = cell.middle(axis);
+    }
+    const ClauseTape& tape = *out.source.tape;
+    const Jet whole = jets_.run(tape, box, axes_, true);
+    out.sign = sign_of(whole.value);
+    out.maybe_undefined = out.sign == CellSign::open && whole.value.maybe_undefined;
+    if (out.sign != CellSign::open || out.maybe_undefined) return;
+    const double mean_value = mean_value_gap(cell, axes_, whole);
+    const Jet middle = jets_.run(tape, point, axes_, false);
+    const std::optional<Quadratic> q = quadratic_of(cell, axes_, whole, middle);
+    const QuadraticGap gap = q ? gap_of(*q, cell, axes_) : QuadraticGap{math::infinity, 0};
+    if (gap.rest + gap.bend <= mean_value && q) {
+        set_quadratic_bounds(*q, cell, axes_, out);
+        if (serves_parts(gap)) out.source.quadratic = std::make_shared<const Quadratic>(*q);
+    } else if (mean_value < math::infinity) {
+        set_mean_value_bounds(cell, axes_, whole, middle, out);
     }
 }
 

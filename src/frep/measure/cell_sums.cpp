@@ -3,13 +3,13 @@
 
 #include <algorithm>
 
+#include "frep/measure/pairs.h"
+
 namespace frep::measuring {
 
 namespace {
 
 using math::Interval;
-
-constexpr std::array<std::array<std::size_t, 2>, 6> pairs{{{0, 0}, {1, 1}, {2, 2}, {0, 1}, {0, 2}, {1, 2}}};
 
 /// The number of the pair of axes i, j.
 std::size_t pair_of(std::size_t i, std::size_t j) {
@@ -36,8 +36,8 @@ CellPart cell_part(const Cell& cell, const CellBounds& bounds, int dimension) {
     part.sure = positive_part_of_lattice(dimension, {bounds.lower.data(), points});
     std::array<double, 27> below{};
     for (std::size_t p = 0; p < points; ++p) below[p] = -bounds.upper[p];
-    const PartMoments outside = positive_part_of_lattice(dimension, {below.data(), points});
-    part.rest = std::clamp(1 - outside.share - part.sure.share + 4 * clip_error, 0.0, 1.0);
+    const double outside = positive_share_of_lattice(dimension, {below.data(), points});
+    part.rest = std::clamp(1 - outside - part.sure.share + 4 * clip_error, 0.0, 1.0);
     return part;
 }
 

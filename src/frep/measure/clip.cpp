@@ -4,13 +4,13 @@
 #include <algorithm>
 #include <cstddef>
 
+#include "frep/measure/pairs.h"
+
 namespace frep::measuring {
 
 namespace {
 
 using Point = std::array<double, 3>;
-
-constexpr std::array<std::array<std::size_t, 2>, 6> pairs{{{0, 0}, {1, 1}, {2, 2}, {0, 1}, {0, 2}, {1, 2}}};
 
 /// A simplex of the cut: corners, and the function there.
 template <int D>
@@ -19,17 +19,20 @@ struct Simplex {
     std::array<double, D + 1> value;
 };
 
-/// Adds up moments of simplices; coordinates in -1..1.
+/// Adds up moments of simplices, or their sizes alone; coordinates in -1..1.
 template <int D>
 class Sum {
   public:
+    explicit Sum(bool sizes_alone) : sizes_alone_(sizes_alone) {}
+
     /// `weight` times the integrals over the simplex, whose share of the cube is `share`.
     void add(const std::array<Point, D + 1>& at, double share, double weight) {
+        const double w = weight * share;
+        moments_.share += w;
+        if (sizes_alone_) return;
         Point total{};
         for (const Point& p : at)
             for (std::size_t i = 0; i < D; ++i) total[i] += p[i];
-        const double w = weight * share;
-        moments_.share += w;
         for (std::size_t i = 0; i < D; ++i) moments_.first[i] += w * total[i] / (D + 1);
         for (std::size_t k = 0; k < 6; ++k) {
             const auto [i, j] = pairs[k];
@@ -42,6 +45,7 @@ class Sum {
     const PartMoments& moments() const { return moments_; }
 
   private:
+    bool sizes_alone_;
     PartMoments moments_;
 };
 
@@ -107,8 +111,8 @@ void add_positive(Simplex<D> s, Sum<D>& sum) {
 }
 
 template <int D>
-PartMoments positive_part_of(std::span<const double> corners) {
-    Sum<D> sum;
+PartMoments positive_part_of(std::span<const double> corners, bool sizes_alone) {
+    Sum<D> sum(sizes_alone);
     std::array<std::size_t, D> order{};
     for (std::size_t i = 0; i < D; ++i) order[i] = i;
     do {
@@ -127,28 +131,35 @@ PartMoments positive_part_of(std::span<const double> corners) {
     return sum.moments();
 }
 
-}  // namespace
+PartMoments part_of(int dimension, std::span<const double> corners, bool sizes_alone) {
+    return dimension == 2 ? positive_part_of<2>(corners, sizes_alone)
+                          : positive_part_of<3>(corners, sizes_alone);
+}
 
-PartMoments positive_part_of_lattice(int dimension, std::span<const double> points) {
+PartMoments lattice_part(int dimension, std::span<const double> points, bool sizes_alone) {
     const auto d = static_cast<std::size_t>(dimension);
     const std::size_t parts = std::size_t{1} << d;
     const double weight = 1 / static_cast<double>(parts);
-    PartMoments out;
+    PartMoments out, whole;
+    whole.share = 1;
+    for (std::size_t k = 0; k < d; ++k) whole.second[k] = 1.0 / 3;
     std::array<double, 8> corners{};
     for (std::size_t part = 0; part < parts; ++part) {
-        bool any = false;
+        bool any = false, all = true;
         for (std::size_t corner = 0; corner < parts; ++corner) {
             std::size_t point = 0, step = 1;
             for (std::size_t k = 0; k < d; ++k, step *= 3)
                 point += ((part >> k & 1u) + (corner >> k & 1u)) * step;
             corners[corner] = points[point];
             any = any || corners[corner] > 0;
+            all = all && corners[corner] > 0;
         }
         if (!any) continue;
-        const PartMoments m = positive_part(dimension, {corners.data(), parts});
+        const PartMoments m = all ? whole : part_of(dimension, {corners.data(), parts}, sizes_alone);
         // u = (side + v)/2, with v the coordinates of the part
         const auto side = [&](std::size_t k) { return part >> k & 1u ? 1.0 : -1.0; };
         out.share += weight * m.share;
+        if (sizes_alone) continue;
         for (std::size_t k = 0; k < d; ++k) out.first[k] += weight * 0.5 * (side(k) * m.share + m.first[k]);
         for (std::size_t p = 0; p < pairs.size(); ++p) {
             const auto [i, j] = pairs[p];
@@ -161,8 +172,18 @@ PartMoments positive_part_of_lattice(int dimension, std::span<const double> poin
     return out;
 }
 
+}  // namespace
+
 PartMoments positive_part(int dimension, std::span<const double> corners) {
-    return dimension == 2 ? positive_part_of<2>(corners) : positive_part_of<3>(corners);
+    return part_of(dimension, corners, false);
+}
+
+PartMoments positive_part_of_lattice(int dimension, std::span<const double> points) {
+    return lattice_part(dimension, points, false);
+}
+
+double positive_share_of_lattice(int dimension, std::span<const double> points) {
+    return lattice_part(dimension, points, true).share;
 }
 
 }  // namespace frep::measuring

@@ -29,5 +29,7 @@ PartMoments positive_part(int dimension, std::span<const double> corners);
 /// simplices of each of the 2^D parts between them; digit k of a point's number to the base 3 is its place
 /// along axis k.
 PartMoments positive_part_of_lattice(int dimension, std::span<const double> points);
+/// Its share alone, in half the time.
+double positive_share_of_lattice(int dimension, std::span<const double> points);
 
 }  // namespace frep::measuring

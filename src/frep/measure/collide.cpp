@@ -4,7 +4,8 @@
 #include <algorithm>
 #include <vector>
 
-#include "frep/measure/cell_bounds.h"
+#include "frep/field/copy.h"
+#include "frep/measure/judge_pool.h"
 
 namespace frep {
 
@@ -14,62 +15,43 @@ using measuring::Cell;
 using measuring::CellBounds;
 using measuring::CellJudge;
 using measuring::CellSign;
+using measuring::CellSource;
+using measuring::JudgePool;
+using measuring::MeasuredBox;
 
 /// Rounds that look for a deeper point once one was found.
 constexpr int rounds_deeper = 6;
 /// Cells that such a round divides.
 constexpr std::size_t cells_deeper = 64;
 
-/// The nodes of `field` in `graph`; gives its root there.
-NodeId add_to(Graph& graph, const Field& field) {
-    const Graph& from = *field.graph;
-    std::vector<NodeId> made(from.size(), 0), arguments;
-    std::vector<std::uint32_t> block_names;
-    const NodeId roots[] = {field.value};
-    const std::vector<bool> needed = reachable(from, roots);
-    for (NodeId id = 0; id < from.size(); ++id) {
-        if (!needed[id]) continue;
-        arguments.clear();
-        for (const NodeId argument : from.arguments(id)) arguments.push_back(made[argument]);
-        const Node& node = from.node(id);
-        made[id] = node.op == Op::coordinate ? graph.coordinate(static_cast<int>(node.payload))
-                                             : graph.make_as(from, id, arguments, block_names);
-    }
-    return made[field.value];
-}
-
 /// An undecided cell and F in its middle.
 struct OpenCell {
     Cell cell;
+    CellSource source;  ///< for its parts
     double value = 0;
 };
 
 class Search {
   public:
     Search(CellJudge judge, std::unique_ptr<Evaluator> values, const CollideOptions& options,
-           std::vector<std::size_t> axes, const Job& job)
-        : judge_(std::move(judge)),
+           const MeasuredBox& box, const Job& job)
+        : judges_(std::move(judge)),
           values_(std::move(values)),
           options_(options),
-          axes_(std::move(axes)),
+          box_(box.cell),
+          axes_(box.axes),
           job_(job) {}
 
     CollideResult run() {
-        const Box3& b = options_.bounds;
-        Cell box;
-        const std::array<double, 3> low{b.min.x, b.min.y, b.min.z}, high{b.max.x, b.max.y, b.max.z};
-        for (const std::size_t axis : axes_) {
-            box.low[axis] = low[axis];
-            box.high[axis] = high[axis];
-        }
-        take({box});
+        take({box_}, {{}});
         int deeper = 0;
         while (!open_.empty() && !job_.cancelled()) {
             if (found_ && out_.depth > 0 && ++deeper > rounds_deeper) break;
             std::vector<Cell> children;
-            divide(found_ && out_.depth > 0 ? cells_deeper : open_.size(), children);
+            std::vector<CellSource> sources;
+            divide(found_ && out_.depth > 0 ? cells_deeper : open_.size(), children, sources);
             if (children.empty()) break;
-            take(children);
+            take(children, sources);
             if (open_.size() > options_.max_cells) break;
         }
         return result();
@@ -83,7 +65,7 @@ class Search {
     }
 
     /// Takes out at most `count` cells, those with the highest values first, and divides their longest sides.
-    void divide(std::size_t count, std::vector<Cell>& children) {
+    void divide(std::size_t count, std::vector<Cell>& children, std::vector<CellSource>& sources) {
         std::stable_sort(open_.begin(), open_.end(),
                          [](const OpenCell& a, const OpenCell& b) { return a.value > b.value; });
         std::vector<OpenCell> kept;
@@ -99,6 +81,7 @@ class Search {
                     children.back().high[axis] = middle;
                     children.push_back(one.cell);
                     children.back().low[axis] = middle;
+                    sources.resize(children.size(), one.source);
                     is_divided = true;
                     --count;
                     break;
@@ -109,9 +92,9 @@ class Search {
         open_ = std::move(kept);
     }
 
-    void take(const std::vector<Cell>& cells) {
+    void take(const std::vector<Cell>& cells, const std::vector<CellSource>& sources) {
         std::vector<CellBounds> bounds(cells.size());
-        judge_.judge(cells, bounds);
+        judges_.judge(job_, cells, sources, bounds);
         out_.evaluated += cells.size();
         std::array<std::vector<double>, 3> columns;
         std::vector<std::size_t> kept;
@@ -131,7 +114,8 @@ class Search {
                 out_.depth = values[k];
                 out_.witness = {columns[0][k], columns[1][k], columns[2][k]};
             }
-            open_.push_back({cells[kept[k]], is_defined ? values[k] : -math::infinity});
+            open_.push_back({cells[kept[k]], std::move(bounds[kept[k]].source),
+                             is_defined ? values[k] : -math::infinity});
         }
     }
 
@@ -157,9 +141,10 @@ class Search {
         return out_;
     }
 
-    CellJudge judge_;
+    JudgePool judges_;
     std::unique_ptr<Evaluator> values_;
     const CollideOptions& options_;
+    Cell box_;
     std::vector<std::size_t> axes_;
     const Job& job_;
     std::vector<OpenCell> open_;
@@ -170,29 +155,23 @@ class Search {
 }  // namespace
 
 Result<CollideResult> collide(const Field& a, const Field& b, const CollideOptions& options, const Job& job) {
-    const auto wrong = [](const char* message) { return Error{ErrorKind::invalid_argument, message}; };
-    const Box3& box = options.bounds;
-    const std::array<double, 3> low{box.min.x, box.min.y, box.min.z}, high{box.max.x, box.max.y, box.max.z};
-    std::vector<std::size_t> axes;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-        if (!options.axes[axis]) continue;
-        axes.push_back(axis);
-        const double side = high[axis] - low[axis];
-        if (!(side > 0) || !(side - side == 0)) return wrong("the box is empty or has no end");
-    }
-    if (!(options.tolerance > 0)) return wrong("the tolerance must be more than 0");
+    const auto box = measuring::measured_box(options.bounds, options.axes);
+    if (!box) return box.error();
+    if (!(options.tolerance > 0))
+        return Error{ErrorKind::invalid_argument, "the tolerance must be more than 0"};
     Graph graph;
-    const NodeId first = add_to(graph, a), second = add_to(graph, b);
+    const NodeId first = copy_of_root(graph, *a.graph, a.value);
+    const NodeId second = copy_of_root(graph, *b.graph, b.value);
     Field both;
     both.value = graph.make(Op::min, {first, second});
     both.coordinates = 3;
     if (graph.over_limit()) return Error{ErrorKind::over_limit, "the two models have too many operations"};
     both.graph = std::make_shared<const Graph>(std::move(graph));
-    auto judge = CellJudge::make(both, axes, options.evaluator);
+    auto judge = CellJudge::make(both, box->axes, options.evaluator);
     if (!judge) return judge.error();
     auto values = make_evaluator(both, options.evaluator);
     if (!values) return values.error();
-    return Search(std::move(*judge), std::move(*values), options, std::move(axes), job).run();
+    return Search(std::move(*judge), std::move(*values), options, *box, job).run();
 }
 
 }  // namespace frep

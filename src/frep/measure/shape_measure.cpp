@@ -3,12 +3,11 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <mutex>
 #include <numeric>
 #include <vector>
 
-#include "frep/base/parallel.h"
 #include "frep/measure/cell_sums.h"
+#include "frep/measure/judge_pool.h"
 
 namespace frep {
 
@@ -20,9 +19,11 @@ using measuring::CellBounds;
 using measuring::CellJudge;
 using measuring::CellPart;
 using measuring::CellSign;
+using measuring::CellSource;
+using measuring::JudgePool;
+using measuring::MeasuredBox;
 using measuring::MomentSums;
 
-constexpr std::size_t cells_a_task = 64;
 /// Sides shorter than this share of the longest one are not divided.
 constexpr double short_side = 0.7;
 /// Where planes are known, axes are divided that add this share of what the worst one adds to their gap.
@@ -30,38 +31,10 @@ constexpr double large_gap = 0.4;
 /// The share of the missing certainty that the cells divided in a round stand for.
 constexpr double share_a_round = 0.6;
 
-bool is_finite(double v) { return v - v == 0; }
-
-/// Judges of worker threads; results do not depend on which one is borrowed.
-class JudgePool {
-  public:
-    explicit JudgePool(const CellJudge& first) : first_(first) {}
-
-    void judge(std::span<const Cell> cells, std::span<CellBounds> out) {
-        std::unique_ptr<CellJudge> judge;
-        {
-            const std::lock_guard lock(mutex_);
-            if (!free_.empty()) {
-                judge = std::move(free_.back());
-                free_.pop_back();
-            } else {
-                judge = std::make_unique<CellJudge>(first_.clone());
-            }
-        }
-        judge->judge(cells, out);
-        const std::lock_guard lock(mutex_);
-        free_.push_back(std::move(judge));
-    }
-
-  private:
-    const CellJudge& first_;
-    std::mutex mutex_;
-    std::vector<std::unique_ptr<CellJudge>> free_;
-};
-
 /// A cell that is not settled.
 struct Leaf {
     CellPart part;
+    CellSource source;         ///< for its parts
     double width = 0;          ///< of the cell's contribution to the size, about
     std::uint8_t divided = 0;  ///< bit k: the k-th measured axis is divided next; none: it is small enough
     bool maybe_undefined = false;
@@ -69,21 +42,19 @@ struct Leaf {
 
 class Measuring {
   public:
-    Measuring(const CellJudge& judge, const ShapeMeasureOptions& options, std::vector<std::size_t> axes,
+    Measuring(CellJudge judge, const ShapeMeasureOptions& options, const MeasuredBox& box,
               std::size_t max_cells, const Job& job)
-        : judges_(judge), options_(options), axes_(std::move(axes)), max_cells_(max_cells), job_(job) {
-        const Box3& b = options.bounds;
-        const std::array<double, 3> low{b.min.x, b.min.y, b.min.z}, high{b.max.x, b.max.y, b.max.z};
-        for (const std::size_t axis : axes_) {
-            box_.low[axis] = low[axis];
-            box_.high[axis] = high[axis];
-        }
+        : judges_(std::move(judge)),
+          options_(options),
+          axes_(box.axes),
+          max_cells_(max_cells),
+          job_(job),
+          box_(box.cell) {
         for (const std::size_t axis : axes_) whole_.origin[axis] = box_.middle(axis);
-        out_.has_planes = judge.has_derivatives();
     }
 
     ShapeMeasure run() {
-        take({box_});
+        take({box_}, {{}});
         while (!job_.cancelled()) {
             const double missing = uncertain();
             const double allowed = 2 * options_.relative_error * (settled() + 0.5 * missing);
@@ -120,6 +91,7 @@ class Measuring {
         const std::size_t fan = std::size_t{1} << axes_.size();
         std::vector<bool> is_taken(leaves_.size(), false);
         std::vector<Cell> children;
+        std::vector<CellSource> sources;
         double taken = 0;
         std::size_t count = 0;
         for (const std::size_t i : order) {
@@ -133,12 +105,13 @@ class Measuring {
         for (std::size_t i = 0; i < leaves_.size(); ++i) {
             if (is_taken[i]) {
                 append_children(leaves_[i], children);
+                sources.resize(children.size(), leaves_[i].source);
             } else {
                 kept.push_back(std::move(leaves_[i]));
             }
         }
         leaves_ = std::move(kept);
-        take(children);
+        take(children, sources);
         return true;
     }
 
@@ -173,15 +146,12 @@ class Measuring {
     }
 
     /// Judges cells and adds them to the sums or to the leaves, in their order.
-    void take(const std::vector<Cell>& cells) {
+    void take(const std::vector<Cell>& cells, const std::vector<CellSource>& sources) {
         std::vector<CellBounds> bounds(cells.size());
         std::vector<CellPart> parts(cells.size());
         const int dimension = static_cast<int>(axes_.size());
-        parallel_for(job_, (cells.size() + cells_a_task - 1) / cells_a_task, [&](std::size_t task) {
-            const std::size_t first = task * cells_a_task;
-            const std::size_t count = std::min(cells_a_task, cells.size() - first);
-            judges_.judge({cells.data() + first, count}, {bounds.data() + first, count});
-            for (std::size_t i = first; i < first + count; ++i)
+        judges_.judge(job_, cells, sources, bounds, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t i = begin; i < end; ++i)
                 if (bounds[i].sign == CellSign::open) parts[i] = cell_part(cells[i], bounds[i], dimension);
         });
         // Cells that a cancelled job left out are open, with nothing known of them.
@@ -199,6 +169,8 @@ class Measuring {
             leaf.width = leaf.part.rest * measuring::cell_size(cells[i], axes_).hi;
             leaf.divided = divided_axes(cells[i], bounds[i]);
             leaf.maybe_undefined = bounds[i].maybe_undefined;
+            leaf.source = std::move(bounds[i].source);
+            out_.has_planes = out_.has_planes || bounds[i].has_planes;
             if (bounds[i].has_planes) note_cut(cells[i], bounds[i]);
             leaves_.push_back(leaf);
         }
@@ -271,22 +243,14 @@ class Measuring {
 std::size_t most_cells(const Field& field) { return has_regions(field) ? 20'000 : 1'000'000; }
 
 Result<ShapeMeasure> measure_shape(const Field& field, const ShapeMeasureOptions& options, const Job& job) {
-    const auto wrong = [](const char* message) { return Error{ErrorKind::invalid_argument, message}; };
-    const Box3& b = options.bounds;
-    const std::array<double, 3> low{b.min.x, b.min.y, b.min.z}, high{b.max.x, b.max.y, b.max.z};
-    std::vector<std::size_t> axes;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-        if (!options.axes[axis]) continue;
-        axes.push_back(axis);
-        if (!(low[axis] < high[axis]) || !is_finite(high[axis] - low[axis]))
-            return wrong("the box to be measured is empty or has no end");
-    }
-    if (axes.size() < 2) return wrong("a shape to be measured has two or three axes");
-    if (!(options.relative_error > 0)) return wrong("the relative error must be more than 0");
-    const auto judge = CellJudge::make(field, axes, options.evaluator);
+    const auto box = measuring::measured_box(options.bounds, options.axes, 2);
+    if (!box) return box.error();
+    if (!(options.relative_error > 0))
+        return Error{ErrorKind::invalid_argument, "the relative error must be more than 0"};
+    auto judge = CellJudge::make(field, box->axes, options.evaluator);
     if (!judge) return judge.error();
     const std::size_t max_cells = options.max_cells > 0 ? options.max_cells : most_cells(field);
-    return Measuring(*judge, options, std::move(axes), max_cells, job).run();
+    return Measuring(std::move(*judge), options, *box, max_cells, job).run();
 }
 
 }  // namespace frep

@@ -1,10 +1,12 @@
 // Implementation of space_field.h: one pass over the graph.
 #include "frep/measure/space_field.h"
 
+#include <optional>
 #include <utility>
-#include <vector>
 
 #include <fmt/format.h>
+
+#include "frep/field/copy.h"
 
 namespace frep {
 
@@ -33,29 +35,23 @@ Result<Field> field_in_space(const Field& field, const AxisMap& map) {
     const Field bound = bind_parameters(plain);
     const Graph& from = *bound.graph;
     Graph to;
-    std::vector<NodeId> made(from.size(), 0), arguments;
-    std::vector<std::uint32_t> block_names;
-    const NodeId roots[] = {bound.value};
-    const std::vector<bool> needed = reachable(from, roots);
-    for (NodeId id = 0; id < from.size(); ++id) {
-        if (!needed[id]) continue;
-        to.set_origin(from.origin(id));
-        const Node& node = from.node(id);
-        if (node.op == Op::coordinate) {
-            if (node.payload >= map.coordinates.size())
-                return wrong(fmt::format("the model uses coordinate {} of {}", node.payload + 1,
-                                         map.coordinates.size()));
+    std::optional<std::uint32_t> missing;
+    const NodeId root =
+        copy_of_root(to, from, bound.value, [&](NodeId id, std::span<const NodeId>) -> std::optional<NodeId> {
+            const Node& node = from.node(id);
+            if (node.op != Op::coordinate) return std::nullopt;
+            if (node.payload >= map.coordinates.size()) {
+                missing = node.payload;
+                return to.constant(0);
+            }
             const MappedCoordinate& c = map.coordinates[node.payload];
-            made[id] = c.axis < 0 ? to.constant(c.value) : to.coordinate(c.axis);
-            continue;
-        }
-        arguments.clear();
-        for (const NodeId argument : from.arguments(id)) arguments.push_back(made[argument]);
-        made[id] = to.make_as(from, id, arguments, block_names);
-    }
+            return c.axis < 0 ? to.constant(c.value) : to.coordinate(c.axis);
+        });
+    if (missing)
+        return wrong(fmt::format("the model uses coordinate {} of {}", *missing + 1, map.coordinates.size()));
     if (to.over_limit()) return Error{ErrorKind::over_limit, "the model has too many operations"};
     Field out;
-    out.value = made[bound.value];
+    out.value = root;
     out.coordinates = 3;
     out.parameters = bound.parameters;
     out.graph = std::make_shared<const Graph>(std::move(to));

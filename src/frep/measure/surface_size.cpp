@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "frep/base/parallel.h"
+#include "frep/measure/measured_box.h"
 
 namespace frep {
 
@@ -155,26 +156,16 @@ bool may_pass(SampledField& field, const Box3& box) {
 
 Result<SurfaceSize> estimate_surface(FieldPool& fields, const Box3& box, const std::array<bool, 3>& axes,
                                      int cells, const Job& job) {
-    const auto wrong = [](const char* message) { return Error{ErrorKind::invalid_argument, message}; };
-    if (cells < 8 || cells > 1024) return wrong("a surface is estimated with 8 to 1024 cells a side");
+    if (cells < 8 || cells > 1024)
+        return Error{ErrorKind::invalid_argument, "a surface is estimated with 8 to 1024 cells a side"};
+    const auto measured = measuring::measured_box(box, axes, 2);
+    if (!measured) return measured.error();
     Lattice lattice;
-    lattice.low = {box.min.x, box.min.y, box.min.z};
-    const Point high{box.max.x, box.max.y, box.max.z};
-    double longest = 0;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-        if (!axes[axis]) {
-            lattice.low[axis] = 0;
-            continue;
-        }
-        lattice.axes.push_back(axis);
-        const double side = high[axis] - lattice.low[axis];
-        if (!(side > 0) || !(side - side == 0)) return wrong("the box to be measured is empty or has no end");
-        longest = std::max(longest, side);
-    }
-    if (lattice.axes.size() < 2) return wrong("a surface to be measured has two or three axes");
+    lattice.axes = measured->axes;
+    lattice.low = measured->cell.low;
     for (const std::size_t axis : lattice.axes) {
-        const double side = high[axis] - lattice.low[axis];
-        const double wanted = cells * side / longest / static_cast<double>(block_cells);
+        const double side = measured->cell.high[axis] - lattice.low[axis];
+        const double wanted = cells * side / measured->longest / static_cast<double>(block_cells);
         lattice.blocks[axis] = std::max<std::size_t>(1, static_cast<std::size_t>(std::lround(wanted)));
         lattice.step[axis] = side / static_cast<double>(lattice.blocks[axis] * block_cells);
     }

@@ -65,6 +65,28 @@ TEST_CASE("one shape inside the other, and nothing") {
     CHECK(collided(ball(0, 2), "my_model = sqrt(-1 - x[1]^2);").kind == Collision::apart);
 }
 
+TEST_CASE("the same answer for any number of threads") {
+    const Field a = space_field_of("array c[3]; c = [0,0,0]; my_model = hfTorusZ(x, c, 1, 0.3);");
+    const Field b = space_field_of("my_model = 0.09 - (x[1]-1.55)^2 - x[2]^2 - (x[3]-0.1)^2;");
+    CollideOptions options;
+    options.bounds = Box3::cube(2);
+    const auto with = [&](int threads) {
+        Job job;
+        job.threads = threads;
+        const auto found = collide(a, b, options, job);
+        REQUIRE(found);
+        return *found;
+    };
+    const CollideResult one = with(1);
+    CHECK(one.kind == Collision::collide);
+    for (const int threads : {2, 5}) {
+        const CollideResult other = with(threads);
+        CHECK(other.witness == one.witness);
+        CHECK(other.depth == one.depth);
+        CHECK(other.evaluated == one.evaluated);
+    }
+}
+
 TEST_CASE("wrong boxes are refused") {
     CollideOptions options;
     options.bounds = {{0, 0, 0}, {0, 1, 1}};
