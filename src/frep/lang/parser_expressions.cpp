@@ -289,8 +289,11 @@ Parsed Parser::primary() {
             break;
     }
     const bool mark = current_.kind != TokenKind::end && binary_operator(current_.kind, Level::relation);
+    const bool list = at(TokenKind::left_bracket);
     syntax_error(Code::expected_expression, "an expression",
-                 mark ? "a value is missing before the comparison" : "");
+                 mark   ? "a value is missing before the comparison"
+                 : list ? "an array is given by its name: `array c[3]` first, then `c = [1, 2, 3];`"
+                        : "");
     return {};
 }
 
