@@ -13,8 +13,6 @@ namespace {
 using math::Interval;
 using Vector = std::array<double, 3>;
 
-double middle(const Interval& a) { return a.lo + 0.5 * (a.hi - a.lo); }
-
 class ConcaveSearch {
   public:
     ConcaveSearch(SearchState& state, std::span<const Interval> box, bool in_ball)

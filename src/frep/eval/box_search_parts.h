@@ -12,6 +12,8 @@ namespace frep::box_search {
 /// A curvature up to this much counts as none: rounding of sums of zeros.
 inline constexpr double flat = 1e-200;
 
+inline double middle(const math::Interval& a) { return a.lo + 0.5 * (a.hi - a.lo); }
+
 /// What is known at a point.
 struct SearchPoint {
     Slope slope;

@@ -22,7 +22,6 @@ bool comes_later(const Box& p, const Box& q) {
     return p.most < q.most || (p.most == q.most && p.order > q.order);
 }
 
-double middle(const Interval& a) { return a.lo + 0.5 * (a.hi - a.lo); }
 double size(const Interval& a) { return std::max(math::abs(a.lo), math::abs(a.hi)); }
 
 class SpaceSearch {

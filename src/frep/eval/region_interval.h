@@ -79,7 +79,13 @@ class IntervalRegion {
     Slope slope(std::uint32_t number, std::span<const math::Interval> box);
     math::Interval value_after(const RegionStatement& statement, std::uint32_t number,
                                std::span<const math::Interval> box);
-    void slope_of_node(const RegionStatement& statement, NodeId id, std::span<const math::Interval> box);
+    struct SearchedNodes {
+        std::vector<NodeId> fixed, moving;  ///< ascending
+        std::vector<std::pair<NodeId, RoundedMinimum>> rounded;
+    };
+    bool slope_of_rounded(const SearchedNodes& nodes, NodeId id, std::size_t variables, bool curved);
+    void slope_of_node(const RegionStatement& statement, NodeId id, std::span<const math::Interval> box,
+                       bool curved);
     Sides decide(const RegionStatement& statement, std::uint32_t number);
     void keep(State& state, const Sides& sides, bool truth) const;
     void evaluate(std::uint32_t number);
@@ -99,7 +105,9 @@ class IntervalRegion {
     std::int64_t work_ = 0, most_work_ = work_limit;
 
     class Searched;
-    std::vector<std::uint32_t> cells_read_;  ///< by the search of search_at()
+    const SearchedNodes& nodes_of_search(std::uint32_t number);
+    std::vector<SearchedNodes> searched_nodes_;  ///< by statement, made when they are needed
+    std::vector<std::uint32_t> cells_read_;      ///< by the search of search_at()
     std::uint32_t read_by_ = ~std::uint32_t{0};
     std::vector<Slope> slopes_;  ///< by node
     std::vector<const Slope*> slope_arguments_;
