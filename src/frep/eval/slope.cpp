@@ -234,6 +234,7 @@ class Rules {
 /// b^e for a constant exponent.
 Slope power(const Rules& rules, const Interval& value, const Slope& b, double e) {
     const Interval base = plain(b.value);
+    if (e == 2) return rules.chain(value, b, times(Interval(2.0), base), Interval(2.0));
     const bool whole = e == math::trunc(e) && e >= 2 && e <= 16;
     if (!whole && !(base.lo > 1e-6)) return Slope::of_value(value);
     const auto to = [&](double exponent) {
@@ -252,46 +253,62 @@ Slope select(const Rules& rules, const Interval& value, std::span<const Slope* c
     return a[0]->fixed ? rules.one_of(value, *a[1], *a[2]) : Slope::of_value(value);
 }
 
-/// The value of `op`: sums and products of finite ranges here, others by their meaning.
-Interval value_of(Op op, std::span<const Interval> a, std::span<const double> block) {
+Interval meaning_of(Op op, std::span<const Slope* const> a, std::span<const double> block) {
+    std::array<Interval, 8> few;
+    std::vector<Interval> many(a.size() > few.size() ? a.size() : 0);
+    const std::span<Interval> operands = many.empty() ? std::span(few).first(a.size()) : std::span(many);
+    for (std::size_t i = 0; i < a.size(); ++i) operands[i] = a[i]->value;
+    return meaning<Interval>(op, std::span<const Interval>(operands), block);
+}
+
+/// The square of a finite range. Numbers up to `snap` count as 0 too.
+std::optional<Interval> square_of(const Interval& x, double snap) {
+    const double a = math::abs(x.lo), b = math::abs(x.hi);
+    const double most = up(std::max(a, b) * std::max(a, b));
+    const double near = x.contains(0.0) ? 0.0 : std::min(a, b);
+    const double least = near <= snap ? 0.0 : down(near * near);
+    const bool is_sure =
+        nearly_nothing < most && most < math::infinity && (least == 0 || least > nearly_nothing);
+    if (!is_sure || (least == 0 && near > snap)) return std::nullopt;
+    return Interval(least, most, x.maybe_undefined);
+}
+
+bool is_squared(std::span<const Slope* const> a) { return a[1]->value.lo == 2 && a[1]->value.hi == 2; }
+
+/// The value of `op`: sums, products and squares of finite ranges here, others by their meaning.
+Interval value_of(Op op, std::span<const Slope* const> a, std::span<const double> block) {
+    constexpr double counts_as_zero = 2e-6;  // to pow(), and more
+    std::optional<Interval> value;
+    const auto flagged = [&](const Interval& v) {
+        return v.flagged(a[0]->value.maybe_undefined || a[1]->value.maybe_undefined);
+    };
     switch (op) {
         case Op::add:
         case Op::sub:
         case Op::mul: {
-            if (!is_finite(a[0]) || !is_finite(a[1])) break;
-            const Interval value = op == Op::add   ? plus(a[0], a[1])
-                                   : op == Op::sub ? minus(a[0], a[1])
-                                                   : times(a[0], a[1]);
-            return value.flagged(a[0].maybe_undefined || a[1].maybe_undefined);
+            const Interval &x = a[0]->value, &y = a[1]->value;
+            if (!is_finite(x) || !is_finite(y)) break;
+            return flagged(op == Op::add ? plus(x, y) : op == Op::sub ? minus(x, y) : times(x, y));
         }
-        case Op::square: {
-            if (!is_finite(a[0])) break;
-            const double lo = math::abs(a[0].lo), hi = math::abs(a[0].hi);
-            const double most = up(std::max(lo, hi) * std::max(lo, hi));
-            const double least = a[0].contains(0.0) ? 0.0 : down(std::min(lo, hi) * std::min(lo, hi));
-            if (!(most < math::infinity) || most < nearly_nothing) break;
-            if (least < nearly_nothing && !a[0].contains(0.0)) break;
-            return {least, most, a[0].maybe_undefined};
-        }
+        case Op::square:
+            if (is_finite(a[0]->value)) value = square_of(a[0]->value, 0.0);
+            break;
+        case Op::pow:
+            if (is_finite(a[0]->value) && is_squared(a)) value = square_of(a[0]->value, counts_as_zero);
+            break;
         default:
             break;
     }
-    return meaning<Interval>(op, a, block);
+    return value ? *value : meaning_of(op, a, block);
 }
 
 }  // namespace
 
 Slope slope_of(Op op, std::span<const Slope* const> a, std::span<const double> block, std::size_t variables,
                bool curved) {
-    std::array<Interval, 8> few;
-    std::vector<Interval> many(a.size() > few.size() ? a.size() : 0);
-    const std::span<Interval> operands = many.empty() ? std::span(few).first(a.size()) : std::span(many);
     bool fixed = true;
-    for (std::size_t i = 0; i < a.size(); ++i) {
-        operands[i] = a[i]->value;
-        fixed = fixed && a[i]->fixed;
-    }
-    const Interval value = value_of(op, operands, block);
+    for (const Slope* argument : a) fixed = fixed && argument->fixed;
+    const Interval value = value_of(op, a, block);
     if (fixed) return Slope::constant(value);
     const Rules rules(variables, curved);
     const Interval one(1.0), x = plain(a[0]->value);

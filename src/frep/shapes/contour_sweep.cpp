@@ -78,8 +78,9 @@ class ContourSweep {
         const Expression from = ahead(path_.knots[piece.first_knot]);
         const Expression to = ahead(path_.knots[piece.last_knot]);
         const Expression a = piece.slant[0] * max(from, 0.0), b = piece.slant[1] * max(-to, 0.0);
-        // Where both are 0, on the line in which the planes meet, the share is 0.
-        const Expression r = min(a / max(a + b, 1e-300), 1.0);
+        // Where both are 0, on the line in which the planes meet, the share is 0. The bound is no rounding
+        // error of ranges in single precision.
+        const Expression r = min(a / max(a + b, 1e-6 * piece.length), 1.0);
         const Expression s = piece.bend == 0 ? r : r + piece.bend * r * (1.0 - r);
         const Expression along = piece.start + piece.length * r;
 
