@@ -32,7 +32,7 @@ class ConcaveSearch {
     /// A bound of the values in the box.
     double run() {
         const int calls = 64 * static_cast<int>(active_.size());
-        for (int k = 0; k < calls && !state_.closes(most_) && !state_.spent(); ++k)
+        for (int k = 0; k < calls && !state_.closes(most_) && !state_.suffices(most_) && !state_.spent(); ++k)
             if (!step()) break;
         return most_;
     }

@@ -55,6 +55,12 @@ class SearchState {
     /// the points themselves may have, which no division of parts can lower.
     bool closes(double most) const { return found_ && (proves(most) || most <= points_most_); }
 
+    /// True when a part with one peak is bounded well enough for functions that stand for many.
+    bool suffices(double most) const {
+        return options_.looseness > 0 && found_ &&
+               most <= points_most_ + options_.looseness * (points_most_ - result_.least);
+    }
+
     /// A part is not looked at any more. `one_peak`: a search at any single point of space can end there.
     void leave(double most, bool one_peak) {
         left_most_ = std::max(left_most_, most);

@@ -33,6 +33,8 @@ class IntervalRegion {
     static constexpr std::int64_t search_work_limit = std::int64_t{1} << 24;
     /// Boxes and points that one search over a box of space looks at.
     static constexpr int coarse_search_limit = 96;
+    /// BoxSearchOptions::looseness of it.
+    static constexpr double coarse_search_looseness = 0.25;
 
     /// `region` must outlive the object.
     IntervalRegion(const Region& region, std::int64_t max_steps);

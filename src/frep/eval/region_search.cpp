@@ -79,7 +79,10 @@ BoxSearchResult IntervalRegion::run_search(std::uint32_t number) {
     options.tolerance = statement.tolerance;
     options.in_ball = statement.in_ball;
     options.limit = Region::search_limit - searched_;
-    if (!at_a_point_) options.limit = std::min(options.limit, coarse_search_limit);
+    if (!at_a_point_) {
+        options.limit = std::min(options.limit, coarse_search_limit);
+        options.looseness = coarse_search_looseness;
+    }
     slopes_.resize(region_.body.size());
     if (statement.first.empty())
         for (const NodeId id : nodes_of_search(number).fixed) slope_of_node(statement, id, {}, false);
