@@ -104,7 +104,9 @@ class LineSearch {
     void add(Part part) {
         part.most = std::min(part.most, bound(part));
         if (part.most == -math::infinity) return;
-        if (state_.closes(part.most)) return state_.leave(part.most, keeps_one_peak(part));
+        const bool one_peak = keeps_one_peak(part);
+        if (state_.closes(part.most) || (one_peak && state_.suffices(part.most)))
+            return state_.leave(part.most, one_peak);
         part.order = ++made_;
         open_.push_back(std::move(part));
         std::push_heap(open_.begin(), open_.end(), comes_later);

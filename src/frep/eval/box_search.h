@@ -30,7 +30,10 @@ struct BoxSearchOptions {
     std::size_t variables = 1;
     double tolerance = 1e-6;  ///< of the value v: tolerance * max(1, |v|)
     bool in_ball = false;     ///< only |t - 1/2| <= 1/2
-    int limit = 1 << 15;      ///< calls of slope()
+    /// For functions that stand for many: parts with one peak are left when their bound passes what the
+    /// points may have by no more than this share of what the best point leaves open.
+    double looseness = 0;
+    int limit = 1 << 15;  ///< calls of slope()
 };
 
 struct BoxSearchResult {

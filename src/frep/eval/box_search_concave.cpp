@@ -13,8 +13,6 @@ namespace {
 using math::Interval;
 using Vector = std::array<double, 3>;
 
-double middle(const Interval& a) { return a.lo + 0.5 * (a.hi - a.lo); }
-
 class ConcaveSearch {
   public:
     ConcaveSearch(SearchState& state, std::span<const Interval> box, bool in_ball)
@@ -34,7 +32,7 @@ class ConcaveSearch {
     /// A bound of the values in the box.
     double run() {
         const int calls = 64 * static_cast<int>(active_.size());
-        for (int k = 0; k < calls && !state_.closes(most_) && !state_.spent(); ++k)
+        for (int k = 0; k < calls && !state_.closes(most_) && !state_.suffices(most_) && !state_.spent(); ++k)
             if (!step()) break;
         return most_;
     }

@@ -12,6 +12,8 @@ namespace frep::box_search {
 /// A curvature up to this much counts as none: rounding of sums of zeros.
 inline constexpr double flat = 1e-200;
 
+inline double middle(const math::Interval& a) { return a.lo + 0.5 * (a.hi - a.lo); }
+
 /// What is known at a point.
 struct SearchPoint {
     Slope slope;
@@ -52,6 +54,12 @@ class SearchState {
     /// True when a part with no larger value needs no further look: it is within the tolerance, or below what
     /// the points themselves may have, which no division of parts can lower.
     bool closes(double most) const { return found_ && (proves(most) || most <= points_most_); }
+
+    /// True when a part with one peak is bounded well enough for functions that stand for many.
+    bool suffices(double most) const {
+        return options_.looseness > 0 && found_ &&
+               most <= points_most_ + options_.looseness * (points_most_ - result_.least);
+    }
 
     /// A part is not looked at any more. `one_peak`: a search at any single point of space can end there.
     void leave(double most, bool one_peak) {

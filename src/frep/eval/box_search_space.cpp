@@ -22,7 +22,6 @@ bool comes_later(const Box& p, const Box& q) {
     return p.most < q.most || (p.most == q.most && p.order > q.order);
 }
 
-double middle(const Interval& a) { return a.lo + 0.5 * (a.hi - a.lo); }
 double size(const Interval& a) { return std::max(math::abs(a.lo), math::abs(a.hi)); }
 
 class SpaceSearch {
@@ -65,9 +64,10 @@ class SpaceSearch {
         if (!in_ball_ && fix_variables(box)) box.slope = state_.slope({box.range.data(), n_});
         if (box.slope.value.is_empty()) return;
         bound(box);
-        if (box.one_peak && !state_.closes(box.most))
+        if (box.one_peak && !state_.closes(box.most) && !state_.suffices(box.most))
             box.most = std::min(box.most, bound_concave(state_, {box.range.data(), n_}, in_ball_));
-        if (state_.closes(box.most)) return state_.leave(box.most, box.one_peak);
+        if (state_.closes(box.most) || (box.one_peak && state_.suffices(box.most)))
+            return state_.leave(box.most, box.one_peak);
         box.order = ++made_;
         open_.push_back(std::move(box));
         std::push_heap(open_.begin(), open_.end(), comes_later);

@@ -33,6 +33,8 @@ class IntervalRegion {
     static constexpr std::int64_t search_work_limit = std::int64_t{1} << 24;
     /// Boxes and points that one search over a box of space looks at.
     static constexpr int coarse_search_limit = 96;
+    /// BoxSearchOptions::looseness of it.
+    static constexpr double coarse_search_looseness = 0.25;
 
     /// `region` must outlive the object.
     IntervalRegion(const Region& region, std::int64_t max_steps);
@@ -79,7 +81,13 @@ class IntervalRegion {
     Slope slope(std::uint32_t number, std::span<const math::Interval> box);
     math::Interval value_after(const RegionStatement& statement, std::uint32_t number,
                                std::span<const math::Interval> box);
-    void slope_of_node(const RegionStatement& statement, NodeId id, std::span<const math::Interval> box);
+    struct SearchedNodes {
+        std::vector<NodeId> fixed, moving;  ///< ascending
+        std::vector<std::pair<NodeId, RoundedMinimum>> rounded;
+    };
+    bool slope_of_rounded(const SearchedNodes& nodes, NodeId id, std::size_t variables, bool curved);
+    void slope_of_node(const RegionStatement& statement, NodeId id, std::span<const math::Interval> box,
+                       bool curved);
     Sides decide(const RegionStatement& statement, std::uint32_t number);
     void keep(State& state, const Sides& sides, bool truth) const;
     void evaluate(std::uint32_t number);
@@ -99,7 +107,9 @@ class IntervalRegion {
     std::int64_t work_ = 0, most_work_ = work_limit;
 
     class Searched;
-    std::vector<std::uint32_t> cells_read_;  ///< by the search of search_at()
+    const SearchedNodes& nodes_of_search(std::uint32_t number);
+    std::vector<SearchedNodes> searched_nodes_;  ///< by statement, made when they are needed
+    std::vector<std::uint32_t> cells_read_;      ///< by the search of search_at()
     std::uint32_t read_by_ = ~std::uint32_t{0};
     std::vector<Slope> slopes_;  ///< by node
     std::vector<const Slope*> slope_arguments_;

@@ -11,6 +11,14 @@ namespace frep {
 
 using math::Interval;
 
+namespace {
+
+bool is_point(std::span<const Interval> box) {
+    return std::ranges::all_of(box, [](const Interval& t) { return t.lo == t.hi; });
+}
+
+}  // namespace
+
 /// The body of a search as a function of its variables.
 class IntervalRegion::Searched final : public SearchedFunction {
   public:
@@ -21,6 +29,24 @@ class IntervalRegion::Searched final : public SearchedFunction {
     IntervalRegion& region_;
     std::uint32_t number_;
 };
+
+/// The nodes that the body of a search needs, apart by whether they depend on its variables.
+const IntervalRegion::SearchedNodes& IntervalRegion::nodes_of_search(std::uint32_t number) {
+    if (searched_nodes_.empty()) searched_nodes_.resize(region_.statements.size());
+    SearchedNodes& nodes = searched_nodes_[number];
+    if (!nodes.fixed.empty() || !nodes.moving.empty()) return nodes;
+    const std::vector<std::uint32_t>& variables = region_.statements[number].variables;
+    std::vector<bool> moves(needed_[number].empty() ? 0 : needed_[number].back() + 1, false);
+    for (const NodeId id : needed_[number]) {
+        const Node& node = region_.body.node(id);
+        if (node.op == Op::cell) moves[id] = std::ranges::find(variables, node.payload) != variables.end();
+        for (const NodeId argument : region_.body.arguments(id)) moves[id] = moves[id] || moves[argument];
+        (moves[id] ? nodes.moving : nodes.fixed).push_back(id);
+        if (const auto parts = rounded_minimum(region_.body, id); parts && moves[id])
+            nodes.rounded.emplace_back(id, *parts);
+    }
+    return nodes;
+}
 
 /// Makes ready for search_at(): the cells that the body reads, in a memory of their own.
 void IntervalRegion::start_search(std::uint32_t number) {
@@ -53,8 +79,13 @@ BoxSearchResult IntervalRegion::run_search(std::uint32_t number) {
     options.tolerance = statement.tolerance;
     options.in_ball = statement.in_ball;
     options.limit = Region::search_limit - searched_;
-    if (!at_a_point_) options.limit = std::min(options.limit, coarse_search_limit);
+    if (!at_a_point_) {
+        options.limit = std::min(options.limit, coarse_search_limit);
+        options.looseness = coarse_search_looseness;
+    }
     slopes_.resize(region_.body.size());
+    if (statement.first.empty())
+        for (const NodeId id : nodes_of_search(number).fixed) slope_of_node(statement, id, {}, false);
     Searched function(*this, number);
     return search_box(function, options);
 }
@@ -81,17 +112,22 @@ Slope IntervalRegion::slope(std::uint32_t number, std::span<const Interval> box)
     const RegionStatement& statement = region_.statements[number];
     ++searched_;
     if (!statement.first.empty()) return Slope::of_value(value_after(statement, number, box));
-    if (!at_a_point_) work(needed_[number].size());
-    for (const NodeId id : needed_[number]) slope_of_node(statement, id, box);
-    return slopes_[statement.value];
+    const SearchedNodes& nodes = searched_nodes_[number];
+    if (!at_a_point_) work(nodes.moving.size() + 1);
+    const bool curved = !is_point(box);
+    for (const NodeId id : nodes.moving)
+        if (nodes.rounded.empty() || !slope_of_rounded(nodes, id, box.size(), curved))
+            slope_of_node(statement, id, box, curved);
+    Slope out = slopes_[statement.value];
+    if (!curved) out.curvature = Interval(0.0);
+    return out;
 }
 
 /// The value after the statements of the body, which leave no other trace.
 Interval IntervalRegion::value_after(const RegionStatement& statement, std::uint32_t number,
                                      std::span<const Interval> box) {
-    const bool point = std::ranges::all_of(box, [](const Interval& t) { return t.lo == t.hi; });
     const State before = state_;
-    const bool was_at_a_point = std::exchange(at_a_point_, at_a_point_ && point);
+    const bool was_at_a_point = std::exchange(at_a_point_, at_a_point_ && is_point(box));
     const bool failed = std::exchange(may_fail_, false);
     const int undecided = std::exchange(undecided_, 0);
     for (std::size_t i = 0; i < box.size(); ++i) state_.cells[statement.variables[i]] = box[i];
@@ -111,8 +147,23 @@ Interval IntervalRegion::value_after(const RegionStatement& statement, std::uint
     return value;
 }
 
-void IntervalRegion::slope_of_node(const RegionStatement& statement, NodeId id,
-                                   std::span<const Interval> box) {
+/// False where the node is none of a rounded minimum.
+bool IntervalRegion::slope_of_rounded(const SearchedNodes& nodes, NodeId id, std::size_t variables,
+                                      bool curved) {
+    for (const auto& [node, parts] : nodes.rounded) {
+        if (node != id) continue;
+        const auto found =
+            rounded_minimum_slope(slopes_[parts.a], slopes_[parts.b], slopes_[parts.r], variables, curved);
+        if (!found) return false;
+        slopes_[id] = *found;
+        return true;
+    }
+    return false;
+}
+
+/// Nodes that do not depend on the variables are asked for with no box.
+void IntervalRegion::slope_of_node(const RegionStatement& statement, NodeId id, std::span<const Interval> box,
+                                   bool curved) {
     const Graph& body = region_.body;
     const Node& node = body.node(id);
     Slope& out = slopes_[id];
@@ -130,13 +181,16 @@ void IntervalRegion::slope_of_node(const RegionStatement& statement, NodeId id,
         case Op::undefined:
             out = Slope::constant(Interval::empty());
             break;
-        case Op::load:
-            out = Slope::of_value(load(node, slopes_[body.arguments(id)[0]].value));
+        case Op::load: {
+            const Slope& index = slopes_[body.arguments(id)[0]];
+            const Interval value = load(node, index.value);
+            out = index.fixed ? Slope::constant(value) : Slope::of_value(value);
             break;
+        }
         default:
             slope_arguments_.clear();
             for (const NodeId argument : body.arguments(id)) slope_arguments_.push_back(&slopes_[argument]);
-            out = slope_of(node.op, slope_arguments_, body.block_of(id), box.size());
+            out = slope_of(node.op, slope_arguments_, body.block_of(id), box.size(), curved);
     }
 }
 

@@ -1,7 +1,7 @@
 // The largest value of a function over some of its variables, as a node: max over t in [0, 1]^n of f(X, t).
 // Variables are leaves of the graph like coordinates, with numbers beyond those of any model; make_largest()
 // moves what depends on them into a region with a search (region.h). Projections, sweeps, Minkowski sums and
-// offsets are such functions (shapes/extremum.h, sweeps.h). Tested by tests/unit/field/search_test.cpp and
+// offsets are such functions (shapes/extremum.h, sweeps.h). Tested by
 // tests/unit/eval/region_search_test.cpp.
 #pragma once
 

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "frep/base/stack.h"
+#include "frep/field/search.h"
 #include "frep/lang/limits.h"
 #include "frep/lang/lowerer.h"
 
@@ -107,6 +108,26 @@ bool Lowerer::drop_constants_since(std::size_t size) {
     return true;
 }
 
+void Lowerer::report_variables(const Graph& model, std::span<const NodeId> roots) {
+    const auto refuse = [&](Span span, const std::string& message) {
+        report(Severity::error, "HF112", span, message, "made here",
+               "a variable has a meaning inside hfMaximum and the like alone");
+    };
+    const std::vector<bool> needed = reachable(model, roots);
+    for (NodeId id = 0; id < needed.size(); ++id) {
+        if (!needed[id]) continue;
+        const Node& node = model.node(id);
+        if (is_search_variable(node))
+            refuse(model.origin(id), "a variable of a search is used outside of every search");
+        if (node.op != Op::region) continue;
+        const Graph& body = model.region_of(id).body;
+        for (NodeId inner = 0; inner < body.size(); ++inner)
+            if (is_search_variable(body.node(inner)))
+                refuse(body.origin(inner),
+                       "a loop whose number of steps depends on the point has a variable");
+    }
+}
+
 std::optional<Lowered> Lowerer::run(std::size_t index) {
     const Object& object = program_.objects[index];
     Graph model;
@@ -131,6 +152,8 @@ std::optional<Lowered> Lowerer::run(std::size_t index) {
     std::vector<NodeId> roots{frame().result};
     for (NodeId id : frame().arrays[array_s].all())
         roots.push_back(id == unassigned ? model.undefined() : id);
+    report_variables(model, roots);
+    if (diagnostics_.has_errors()) return std::nullopt;
     if (const auto value = model.constant_value(roots[0]); value && *value != *value) {
         const StatementNode& last = program_.statements[object.body.back()];
         report(Severity::warning, "HF106", last.target_span,

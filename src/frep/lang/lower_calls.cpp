@@ -81,6 +81,10 @@ NodeId Lowerer::library_call(const ExpressionNode& node) {
             report(Severity::warning, "HF109", node.span, message, "named here",
                    "the rest of the file is used");
         };
+        build.refuse_search = [&](const std::string& message) {
+            report(Severity::error, "HF113", node.span, message, "in this search",
+                   "`frep explain HF113` says what a search needs");
+        };
         build.decides = [&](Expression value) { known(value.id()); };
         build.set_system = set_system();
         const std::size_t before = graph().size();

@@ -135,6 +135,9 @@ class Lowerer {
     void add_statement(RegionStatement statement);
     bool may_nest();
 
+    /// Variables of searches that are left outside of them, as errors.
+    void report_variables(const Graph& model, std::span<const NodeId> roots);
+
     // bookkeeping
     Frame& frame() { return frames_.back(); }
     Graph& graph() { return *target_.graph; }

@@ -40,7 +40,7 @@ Expression search_over(Build& build, Expression f, Array variables, Expression t
     std::vector<Expression> found;
     for (const Expression& t : variables) {
         const auto variable = variable_of(t);
-        if (!variable) return build.error(text_of(SearchError::variables));
+        if (!variable) return build.no_search(text_of(SearchError::variables));
         found.push_back(*variable);
     }
     return search(build, f, found, tolerance);
@@ -63,12 +63,12 @@ Expression smooth_smaller(Expression a, Expression b, Expression radius) {
 Expression search(Build& build, Expression f, std::span<const Expression> variables, Expression tolerance,
                   bool in_ball) {
     const auto number = known(build, tolerance);
-    if (!number) return build.error("the tolerance depends on the point");
+    if (!number) return build.no_search("the tolerance depends on the point");
     std::vector<NodeId> ids;
     for (const Expression& v : variables) ids.push_back(v.id());
     SearchError error = SearchError::none;
     const auto made = make_largest(build.graph, f.id(), ids, {*number, in_ball}, error);
-    return made ? Expression(build.graph, *made) : build.error(text_of(error));
+    return made ? Expression(build.graph, *made) : build.no_search(text_of(error));
 }
 
 std::optional<Expression> moved(Build& build, Expression f, Array x, Array p) {
@@ -81,7 +81,7 @@ Expression variable(Build& build, Expression low, Expression high) {
     for (const Expression& end : {low, high}) {
         const auto number = build.graph.constant_value(end.id());
         if (number && !(math::abs(*number) < math::infinity))
-            return build.error("the range of a variable must be finite");
+            return build.no_search("the range of a variable must be finite");
     }
     return low + (high - low) * unit_variable(build);
 }

@@ -47,11 +47,20 @@ struct Build {
     /// as an error or a warning at the call.
     std::function<void(const std::string&)> refuse = {};
     std::function<void(const std::string&)> left_out = {};
+    /// Told of a search that has no meaning: one sentence, shown as an error at the call.
+    std::function<void(const std::string&)> refuse_search = {};
 
     Expression constant(double value) const { return {graph, graph.constant(value)}; }
     Expression error(const std::string& message) const {
         if (warn) warn(message);
         return constant(error_value);
+    }
+    Expression no_search(const std::string& message) const {
+        if (refuse_search) {
+            refuse_search(message);
+            return constant(error_value);
+        }
+        return error(message);
     }
     Expression refused(const std::string& message) const {
         if (refuse) refuse(message);

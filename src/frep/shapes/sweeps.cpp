@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "frep/shapes/binding.h"
+#include "frep/shapes/contour_sweep.h"
 #include "frep/shapes/searching.h"
 
 namespace frep::shapes {
@@ -61,6 +62,12 @@ Rows sweep_rows() {
     constexpr std::string_view promise =
         "f stands as it is at the origin. Proved to the tolerance as hfMaximum. For other motions write "
         "hfVariable and hfMaximum: the moved point goes into the function of the solid.";
+    constexpr std::string_view contour = "pasko1996";
+    constexpr std::string_view frame =
+        "f is written in the items of x: x[1] is u, x[2] is v, x[3] is t, by which it may change along the "
+        "path. u points along side where the path begins and is then turned as little as possible "
+        "(wang2008); v is perpendicular to the path and to u. A path that ends where it begins is closed. "
+        "points and side may not depend on the point. No search.";
     return {
         row<&sweep_polygon>("hfSweepPolygon", "x, f, points, tolerance",
                             {"Sweep of the solid f along the polygon of points, whose items are those of x.",
@@ -70,6 +77,18 @@ Rows sweep_rows() {
                            {"Sweep of the solid f along the cubic Bezier curve of four control points.",
                             "max over t of f(x - p(t)), p(t) = sum of B_i(t) p_i", cite, promise},
                            false),
+        row<&sweep_contour_polygon>(
+            "hfSweepContourPolygon", "x, f, points, side",
+            {"Sweep of the contour f along a polygon in space: bars and frames with mitred corners.",
+             "f(u, v, t): from the path of the point u to the side, v upwards; t = 0..1 along the path",
+             contour, frame},
+            false),
+        row<&sweep_contour_bezier>(
+            "hfSweepContourBezier", "x, f, points, side",
+            {"Sweep of the contour f along cubic Bezier curves in space, of 4, 7, 10, ... control points.",
+             "f(u, v, t): from the path of the point u to the side, v upwards; t = 0..1 along the path",
+             contour, frame},
+            false),
     };
 }
 

@@ -1,6 +1,6 @@
-// Sweeps: solids that move along a line or a curve (Sourin, Pasko 1996), contours of the plane that are moved
-// along a curve in space (Pasko, Savchenko, Sourin 1996). Searches over the parameter of the path, proved to
-// a tolerance (field/search.h). Tested by tests/unit/shapes/sweeps_test.cpp.
+// Sweeps: solids that move along a line or a curve (Sourin, Pasko 1996). Searches over the parameter of the
+// path, proved to a tolerance (field/search.h). For contours see contour_sweep.h. Tested by
+// tests/unit/shapes/extremum_test.cpp.
 #pragma once
 
 #include "frep/shapes/library.h"

@@ -30,7 +30,12 @@ class GraphFunction final : public SearchedFunction {
             } else {
                 std::vector<const Slope*> arguments;
                 for (const NodeId a : graph_.arguments(id)) arguments.push_back(&slopes_[a]);
-                slopes_[id] = slope_of(node.op, arguments, graph_.block_of(id), box.size());
+                const auto parts = rounded_minimum(graph_, id);
+                auto rounded = parts ? rounded_minimum_slope(slopes_[parts->a], slopes_[parts->b],
+                                                             slopes_[parts->r], box.size(), true)
+                                     : std::nullopt;
+                slopes_[id] =
+                    rounded ? *rounded : slope_of(node.op, arguments, graph_.block_of(id), box.size());
             }
         }
         return slopes_.back();
@@ -116,6 +121,33 @@ TEST_CASE("in the ball: inside, on its surface") {
     CHECK(finds(p.search(square(u - 0.5) + 0.5 * square(v - 0.5), 2, 1e-3, true), 0.25, 1e-3));
 }
 
+TEST_CASE("the rounded smaller one of a block and a ball is known to be concave") {
+    Problem p;
+    const auto [u, v, w] = p.t;
+    const Expression block = min(min(0.3 - abs(u - 0.5), 0.2 - abs(v - 0.4)), 0.25 - abs(w - 0.5));
+    const Expression ball = 0.04 - square(u - 0.9) - square(v - 0.3) - square(w - 0.6);
+    const Expression r = Expression::constant(u, 0.01);
+    const Expression f = 0.5 * (block + ball + r - hypot(block - ball, r));
+    CHECK(rounded_minimum(p.graph, p.graph.arguments(f.id())[1]));
+    CHECK_FALSE(rounded_minimum(p.graph, f.id()));
+    const BoxSearchResult found = p.search(f, 3, 1e-3);
+    double most = -1;
+    for (int i = 0; i <= 60; ++i)
+        for (int j = 0; j <= 60; ++j)
+            for (int k = 0; k <= 60; ++k) {
+                const double x = i / 60.0, y = j / 60.0, z = k / 60.0;
+                const double a =
+                    std::min({0.3 - std::abs(x - 0.5), 0.2 - std::abs(y - 0.4), 0.25 - std::abs(z - 0.5)});
+                const double b = 0.04 - (x - 0.9) * (x - 0.9) - (y - 0.3) * (y - 0.3) - (z - 0.6) * (z - 0.6);
+                most = std::max(most, 0.5 * (a + b + 0.01 - std::hypot(a - b, 0.01)));
+            }
+    CHECK(found.finished);
+    CHECK(found.most >= most);
+    CHECK(found.least >= most - 1e-3);
+    CHECK(found.least <= most + 0.01);
+    CHECK(found.calls < 120);
+}
+
 TEST_CASE("the slopes of random points lie within those of boxes around them") {
     Problem p;
     const Expression u = p.t[0], v = p.t[1];
@@ -128,6 +160,7 @@ TEST_CASE("the slopes of random points lie within those of boxes around them") {
         max(abs(u - v), atan(4.0 * u) * 0.5),
         sqrt(u + 0.1) + log(v + 0.5),
         pow(u - 0.5, 3.0) + pow(v + 0.2, 1.5) - pow(u, 2.0),
+        sin(u) + square(v) + 0.3 - hypot(sin(u) - square(v), 0.3),
     };
     for (const Expression& f : parts) {
         GraphFunction function(p.graph, f.id());
