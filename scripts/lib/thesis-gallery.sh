@@ -42,6 +42,7 @@ blending_figures=(
 # Pictures of docs/gallery/thesis.md: PICTURE MODEL OPTIONS... .
 thesis_pictures=(
     "shikki-set shikki-set --size 720x405 --zoom 1.12"
+    "boundary boundary --size 640x340"
     "csg-tree csg-tree --size 480x400"
     "cell cell --size 360x320"
     "space-time disk-to-square --size 300x420 --azimuth 35 --elevation 12"

@@ -77,6 +77,12 @@ Result<VolumeFile> dense(const Grid& grid) {
 }
 
 Result<VolumeFile> read_grids(std::string_view bytes) {
+    // The library would print a warning of its own for versions to come.
+    constexpr std::uint32_t oldest = openvdb::OPENVDB_FILE_VERSION_ROOTNODE_MAP;
+    const std::uint32_t version = bytes.size() < 12 ? 0 : load<std::uint32_t>(bytes.data() + 8);
+    if (version < oldest || version > openvdb::OPENVDB_FILE_VERSION)
+        return Error{ErrorKind::io, fmt::format("OpenVDB format {} is not read: {} to {} are", version,
+                                                oldest, std::uint32_t{openvdb::OPENVDB_FILE_VERSION})};
     openvdb::initialize();
     MemoryBuffer buffer(bytes);
     std::istream in(&buffer);
