@@ -53,7 +53,7 @@ class MorphRun {
             if (!box) return fail(box.error());
             boxes_[i] = *box;
             if (coordinates_ == 2) boxes_[i].min.z = boxes_[i].max.z = 0;
-            if (const auto slope = surface_slope(**field, *box)) slopes_[i] = slope->median;
+            if (const auto slope = surface_slope(**field, boxes_[i])) slopes_[i] = slope->median;
         }
         find_factors();
         if (!options_.a0)

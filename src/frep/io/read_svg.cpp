@@ -24,6 +24,7 @@ using pugi::xml_node;
 constexpr std::size_t most_bytes = std::size_t{64} << 20;
 constexpr std::size_t most_marks = 4'000'000;  ///< tags and attributes of the text: each takes up to 64 bytes
 constexpr double most_coordinate = 1e12;       ///< after all transforms
+constexpr double most_scale = 1e100;           ///< of all transforms together
 constexpr std::size_t most_elements = 200'000;  ///< visited, elements shown by `use` counted each time
 constexpr int most_depth = 100;
 
