@@ -158,7 +158,7 @@ class GridReader : public openvdb::io::Archive {
 
 Result<VolumeFile> read_grids(std::string_view bytes) {
     // Versions before are of 2013; of ones to come the library would print a warning of its own.
-    constexpr std::uint32_t oldest = openvdb::OPENVDB_FILE_VERSION_SELECTIVE_COMPRESSION;
+    constexpr std::uint32_t oldest = openvdb::OPENVDB_FILE_VERSION_NODE_MASK_COMPRESSION;
     constexpr std::uint32_t newest = openvdb::OPENVDB_FILE_VERSION;
     const std::uint32_t version = bytes.size() < 12 ? 0 : load<std::uint32_t>(bytes.data() + 8);
     if (version < oldest || version > newest)
