@@ -1,8 +1,7 @@
 // libFuzzer target: voxel files in NRRD; the file that a header names has the bytes of the file itself.
 // OpenVDB is left to tests/unit/io/read_vdb_test.cpp: its library asks for the memory that a compressed block
 // states, which fails as an exception in a program and ends one under the address sanitizer. Samples that
-// come out must be finite, as many as the grid says, and no more than the file can hold: what compression may
-// make of a byte is bounded.
+// come out must be finite, as many as the grid says, and within the limit.
 #include <cstdint>
 #include <cstdlib>
 #include <string>
