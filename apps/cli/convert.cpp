@@ -9,6 +9,7 @@
 
 #include "budget.h"
 #include "command_line.h"
+#include "info_file.h"
 #include "json.h"
 #include "terminal.h"
 #include "verbs.h"
@@ -67,6 +68,11 @@ Result<ReadScene> read_mesh_file(const std::string& path, const LengthUnit& unit
     const auto bytes = read_file(path, file_limit);
     if (!bytes) return bytes.error();
     const auto format = scene_read_format(path, *bytes);
+    if (const auto named = named_file_kind(path, *bytes); !format && named)
+        return Error{
+            ErrorKind::invalid_argument,
+            fmt::format("'{}' is {}: it becomes a solid in a model, by {}; `frep info` tells what it has",
+                        path, named->what, named->function)};
     if (!format) return Error{format.error().kind, format.error().message + "; models are .hf and .vm"};
     ReadReport report;
     const ReadOptions options{

@@ -1,13 +1,10 @@
 // A model as an isosurface of POV-Ray. Tested by tests/cli/convert.txt.
-#include <algorithm>
-#include <cmath>
-#include <vector>
-
 #include <fmt/format.h>
 
 #include "box.h"
 #include "convert.h"
 #include "json.h"
+#include "surface_slope.h"
 #include "terminal.h"
 #include "values.h"
 #include "verbs.h"
@@ -15,37 +12,6 @@
 namespace frep::cli {
 
 namespace {
-
-constexpr std::size_t samples_a_side = 32;
-
-/// The largest slope of F at samples near the surface (so near that it may cross their cell), a quarter
-/// added; without such samples, the largest of all, else 1.
-double sampled_gradient(SampledField& field, const Box3& box) {
-    const std::size_t n = samples_a_side, batch = n * n;
-    const Vec3 step = (box.max - box.min) / static_cast<double>(n);
-    const double reach = std::sqrt(dot(step, step));
-    std::vector<double> columns[7];
-    for (auto& column : columns) column.resize(batch);
-    double near = 0, all = 0;
-    for (std::size_t k = 0; k < n; ++k) {
-        for (std::size_t p = 0; p < batch; ++p) {
-            columns[0][p] = box.min.x + (static_cast<double>(p % n) + 0.5) * step.x;
-            columns[1][p] = box.min.y + (static_cast<double>(p / n) + 0.5) * step.y;
-            columns[2][p] = box.min.z + (static_cast<double>(k) + 0.5) * step.z;
-        }
-        field.gradients({columns[0], columns[1], columns[2]}, columns[3],
-                        {columns[4], columns[5], columns[6]});
-        for (std::size_t p = 0; p < batch; ++p) {
-            const Vec3 g{columns[4][p], columns[5][p], columns[6][p]};
-            const double slope = std::sqrt(dot(g, g));
-            if (!std::isfinite(slope) || !std::isfinite(columns[3][p])) continue;
-            all = std::max(all, slope);
-            if (std::fabs(columns[3][p]) <= 2 * reach * slope) near = std::max(near, slope);
-        }
-    }
-    const double found = near > 0 ? near : all;
-    return found > 0 ? 1.25 * found : 1;
-}
 
 int refuse_target(const ConvertOptions& options, MeshFormat target) {
     if (target != MeshFormat::pov) {
@@ -87,7 +53,8 @@ int convert_model(const ConvertOptions& options, MeshFormat target) {
     const auto box = choose_box(*prepared, stated, **field, Job{});
     if (!box) return fail(box.error());
     pov.box = *box;
-    if (!options.max_gradient) pov.max_gradient = sampled_gradient(**field, *box);
+    if (!options.max_gradient)
+        if (const auto slope = surface_slope(**field, *box)) pov.max_gradient = 1.25 * slope->largest;
     for (const MappedCoordinate& c : prepared->map.coordinates) pov.coordinates.push_back({c.axis, c.value});
     const auto& notes = prepared->model.program().annotations;
     pov.title = notes.title;

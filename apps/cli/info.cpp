@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "command_line.h"
+#include "info_file.h"
 #include "json.h"
 #include "model_input.h"
 #include "terminal.h"
@@ -216,6 +217,8 @@ std::string model_text(const Model& model, const std::vector<ObjectFacts>& objec
 }
 
 int describe_model(const InfoOptions& options) {
+    if (!options.object)
+        if (const auto done = describe_file(options.input, options.json)) return *done;
     int code = exit_ok;
     const auto model = load_model(options.input, code);
     if (!model) return code;
@@ -266,10 +269,12 @@ int describe_program(const InfoOptions& options) {
 
 int run_info(Arguments arguments) {
     InfoOptions options;
-    CommandLine line("info", "info MODEL [options] | info --library | info --engines",
-                     "Tells what a model consists of, or what this program has.",
-                     {"frep info pot.hf", "frep info pot.hf --json", "frep info --library"});
-    line.positional("MODEL", options.input, "HyperFun file, - for standard input");
+    CommandLine line(
+        "info", "info FILE [options] | info --library | info --engines",
+        "Tells what a model, a drawing, a font or a voxel file consists of, or what this program has.",
+        {"frep info pot.hf", "frep info logo.svg --json", "frep info --library"});
+    line.positional("FILE", options.input,
+                    "HyperFun file, - for standard input; or .svg .ttf .otf .ttc .woff .nrrd .nhdr .vdb");
     line.text("--object", options.object, "NAME", "only this object (default: all)");
     line.flag("--library", options.library, "list the functions of the FRep library");
     line.flag("--engines", options.engines, "list the engines");

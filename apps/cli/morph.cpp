@@ -9,6 +9,7 @@
 #include "budget.h"
 #include "command_line.h"
 #include "frame_report.h"
+#include "surface_slope.h"
 #include "terminal.h"
 #include "values.h"
 #include "verbs.h"
@@ -23,11 +24,12 @@ struct MorphOptions {
     bool plain = false;
 };
 
-/// Numbers of the blend, for time from -10 to 10.
+/// Numbers of the blend, for time from -10 to 10 and shapes whose values run through about 8 units.
 struct Blend {
     double a0 = 0, a1 = 2, a2 = 2, a3 = 1, b0 = -0.5, c = 5;
 };
 
+constexpr double usual_range = 8;
 constexpr double span = 10;  ///< the blend's own time runs from -span to span
 constexpr int trial_frames = 41, trial_cells_flat = 96, trial_cells_solid = 32;
 constexpr double least_share = 0.5;  ///< of the smaller shape, that every frame must have
@@ -50,10 +52,13 @@ class MorphRun {
             const auto box = choose_box(*parts_[i], {}, **field, job_);
             if (!box) return fail(box.error());
             boxes_[i] = *box;
+            if (coordinates_ == 2) boxes_[i].min.z = boxes_[i].max.z = 0;
+            if (const auto slope = surface_slope(**field, boxes_[i])) slopes_[i] = slope->median;
         }
+        find_factors();
         if (!options_.a0)
             if (const Status status = find_strength(); !status) return fail(status.error());
-        const std::string text = model_text(blend_);
+        const std::string text = model_text(number_text(blend_.a0));
         if (options_.output == "-") return print_result(text);
         const WritingFile guard;
         if (const Status status = write_file(*options_.output, text); !status) return fail(status.error());
@@ -101,40 +106,68 @@ class MorphRun {
         if (parts_[0]->model.program().annotations.set_operations !=
             parts_[1]->model.program().annotations.set_operations)
             return usage("the models have different --@ set-operations; one file can have one system only");
-        if (parts_[0]->header().parameters() + parts_[1]->header().parameters() > max_parameters)
-            return Error{ErrorKind::over_limit, fmt::format("more than {} parameters", max_parameters)};
+        if (own_parameters() >= max_parameters)  // the search for a0 needs one more
+            return Error{ErrorKind::over_limit, fmt::format("more than {} parameters", max_parameters - 1)};
         coordinates_ = static_cast<std::size_t>(n);
         return {};
     }
 
     Box3 both() const { return joined(boxes_[0], boxes_[1]); }
 
+    /// What the values of the shapes are multiplied by, so that the same blend suits shapes of any size and
+    /// functions of any slope: slope times size becomes usual_range. Three digits are enough, and read
+    /// better.
+    void find_factors() {
+        for (std::size_t i = 0; i < 2; ++i) {
+            const double range = slopes_[i] * both().diagonal();
+            const auto rounded = parse_number(fmt::format("{:.3g}", usual_range / range));
+            if (rounded && std::isfinite(*rounded) && *rounded > 0) factors_[i] = *rounded;
+        }
+    }
+
     /// The smallest displacement, of a row of doubled ones, with which no frame is much smaller than the
     /// shapes, and none falls into more parts than they have.
     Status find_strength() {
         Box3 box = both();
-        const double size = box.diagonal();
-        const double margin = 0.1 * size;
+        const double margin = 0.1 * box.diagonal();
         box.min = box.min - Vec3{margin, margin, margin};
         box.max = box.max + Vec3{margin, margin, margin};
-        if (coordinates_ == 2) box.min.z = box.max.z = 0;
+        if (coordinates_ == 2) box.min.z = box.max.z = 0;  // the margin's
+        // One model for all trials: a0 is a parameter of it, the last one.
+        const std::size_t last = own_parameters();
+        const Model model(Source("morph.hf", model_text(fmt::format("a[{}]", last + 1))));
+        const auto object = model.find_object("my_model");
+        if (!model.ok() || !object) return usage("the two models cannot be put into one file");
+        std::vector<double> values = parameters();
+        values.resize(last + 1);
+        Diagnostics found;
+        auto lowered = model.lower(*object, values, found);
+        if (!lowered) {
+            print_diagnostics(found, model.source());
+            return Error{ErrorKind::invalid_model, "the two models cannot be put into one file"};
+        }
+        PreparedModel trial{model,
+                            *object,
+                            std::move(*lowered),
+                            parts_[0]->evaluator,
+                            parts_[0]->engine,
+                            AxisMap::standard(static_cast<int>(coordinates_) + 1),
+                            false,
+                            job_.threads};
+        auto strength = MovingModel::make(trial, Along{fmt::format("a[{}]", last + 1), 0, 1});
+        if (!strength) return strength.error();
         ProgressBar bar("looking for a0");
-        Blend best = blend_;
-        double least = -1;
-        Blend trial = blend_;
-        trial.a0 = size / 64;
-        for (int step = 0; step < 9; ++step, trial.a0 *= 2) {
+        constexpr int steps = 9;
+        double least = -1, a0 = usual_range / 64;
+        for (int step = 0; step < steps && least != 0; ++step, a0 *= 2) {
+            if (const Status status = strength->set(a0); !status) return status;
             const auto badness = try_out(trial, box);
             if (!badness) return badness.error();
-            bar.update((step + 1) / 9.0);
+            bar.update((step + 1.0) / steps);
             if (least >= 0 && *badness >= least) continue;
             least = *badness;
-            best = trial;
-            if (least == 0) break;
+            blend_.a0 = a0;
         }
-        // three digits are enough, and read better
-        if (const auto rounded = parse_number(fmt::format("{:.3g}", best.a0))) best.a0 = *rounded;
-        blend_ = best;
         if (least > 0)
             print_warning("the shapes fall apart or vanish between: try --a0, --b0, or move them nearer");
         return {};
@@ -142,27 +175,9 @@ class MorphRun {
 
     /// 0 where all is well: a frame that is smaller than a share of the smaller shape counts up to 10, each
     /// part too many 1.
-    Result<double> try_out(const Blend& blend, const Box3& box) {
-        const Model model(Source("morph.hf", model_text(blend)));
-        Diagnostics found;
-        const auto object = model.find_object("my_model");
-        if (!model.ok() || !object) return usage("the two models cannot be put into one file");
-        PreparedModel prepared{model,
-                               *object,
-                               {},
-                               parts_[0]->evaluator,
-                               parts_[0]->engine,
-                               AxisMap::standard(static_cast<int>(coordinates_) + 1),
-                               false,
-                               job_.threads};
-        auto lowered = model.lower(*object, parameters(), found);
-        if (!lowered) {
-            print_diagnostics(found, model.source());
-            return Error{ErrorKind::invalid_model, "the two models cannot be put into one file"};
-        }
-        prepared.lowered = std::move(*lowered);
+    Result<double> try_out(PreparedModel& trial, const Box3& box) {
         const Along along{fmt::format("x{}", coordinates_ + 1), from_, to_};
-        auto moving = MovingModel::make(prepared, along);
+        auto moving = MovingModel::make(trial, along);
         if (!moving) return moving.error();
         const auto frames = measure_frames(*moving, evenly_spaced(along, trial_frames), box, 0,
                                            coordinates_ == 2 ? trial_cells_flat : trial_cells_solid, job_);
@@ -175,6 +190,11 @@ class MorphRun {
             if (m.size < floor) bad += 10 * (1 - m.size / floor);
         }
         return bad;
+    }
+
+    /// How many parameters the two models have.
+    std::size_t own_parameters() const {
+        return static_cast<std::size_t>(parts_[0]->header().parameters() + parts_[1]->header().parameters());
     }
 
     std::vector<double> parameters() const {
@@ -270,7 +290,9 @@ class MorphRun {
                            k + 1, number_text(color.g), k + 1, number_text(color.b));
     }
 
-    std::string model_text(const Blend& b) const {
+    /// The model; `a0` is a number or a parameter.
+    std::string model_text(const std::string& a0) const {
+        const Blend& b = blend_;
         const std::size_t n = coordinates_;
         const std::size_t counts[2] = {static_cast<std::size_t>(parts_[0]->header().parameters()),
                                        static_cast<std::size_t>(parts_[1]->header().parameters())};
@@ -283,7 +305,8 @@ class MorphRun {
         }
         const bool colored = is_colored();
         out += fmt::format("my_model(x[{}], a[{}]{})\n{{\n", n + 1,
-                           std::max<std::size_t>(1, counts[0] + counts[1]), colored ? ", s[3]" : "");
+                           std::max<std::size_t>(1, own_parameters() + (a0.starts_with('a') ? 1 : 0)),
+                           colored ? ", s[3]" : "");
         out += fmt::format("  array p[{}], u[{}], v[{}]{};\n", n, std::max<std::size_t>(1, counts[0]),
                            std::max<std::size_t>(1, counts[1]), colored ? attribute_arrays() : "");
         out +=
@@ -295,12 +318,12 @@ class MorphRun {
         if (colored) out += blended_colors();
         out += options_.plain
                    ? fmt::format("  my_model = hfSpaceTimeBlend(g1, g2, t, 0, 1, 10, {}, {}, {}, {});\n}}\n",
-                                 number_text(b.a0), number_text(b.a1), number_text(b.a2), number_text(b.a3))
+                                 a0, number_text(b.a1), number_text(b.a2), number_text(b.a3))
                    : fmt::format(
                          "  my_model = hfSpaceTimeBlendSmooth(g1, g2, t, 0, 1, 10, {}, {}, {}, {}, {}, "
                          "{});\n}}\n",
-                         number_text(b.a0), number_text(b.a1), number_text(b.a2), number_text(b.a3),
-                         number_text(b.b0), number_text(b.c));
+                         a0, number_text(b.a1), number_text(b.a2), number_text(b.a3), number_text(b.b0),
+                         number_text(b.c));
         return out;
     }
 
@@ -321,7 +344,7 @@ class MorphRun {
                                std::max<std::size_t>(3, parts_[k]->field().attributes.size()));
         return out;
     }
-    /// g1 = first_name(p, u); with attributes the three of the color.
+    /// g1 = 0.5*first_name(p, u); with attributes the three of the color.
     std::string call_text(std::size_t k, bool colored) const {
         const char* const values = k == 0 ? "u" : "v";
         const std::string name = std::string(prefixes[k]) + parts_[k]->header().written_name;
@@ -331,7 +354,8 @@ class MorphRun {
             for (std::size_t i = 1; i <= parts_[k]->field().attributes.size(); ++i)
                 out += fmt::format("  c{}[{}] = 0;\n", k + 1, i);
         if (colored) out += color_text(k);
-        return out + fmt::format("  g{} = {}(p, {}{});\n", k + 1, name, values,
+        const std::string factor = factors_[k] == 1 ? "" : number_text(factors_[k]) + "*";
+        return out + fmt::format("  g{} = {}{}(p, {}{});\n", k + 1, factor, name, values,
                                  with_colors ? fmt::format(", c{}", k + 1) : "");
     }
     static std::string blended_colors() {
@@ -344,6 +368,7 @@ class MorphRun {
     const MorphOptions& options_;
     const PreparedModel* parts_[2];
     Box3 boxes_[2];
+    double slopes_[2] = {1, 1}, factors_[2] = {1, 1};
     Job job_;
     Blend blend_;
     double from_ = -10, to_ = 10;

@@ -42,8 +42,11 @@ blending_figures=(
 # Pictures of docs/gallery/thesis.md: PICTURE MODEL OPTIONS... .
 thesis_pictures=(
     "shikki-set shikki-set --size 720x405 --zoom 1.12"
+    "boundary boundary --size 640x340"
     "csg-tree csg-tree --size 480x400"
     "cell cell --size 360x320"
+    "cell-graph cell --param graph=1 --size 360x320"
+    "cell-face cell-face --size 320x320"
     "space-time disk-to-square --size 300x420 --azimuth 35 --elevation 12"
 )
 
@@ -58,7 +61,7 @@ thesis_animations=(
     "torus-to-box torus-to-box --along t=-10..10 --even --back --frames 30 --size 320x220 --zoom 1.2 --quality draft"
     "letters-to-robot robot-letters+robot : --along t=-10..10 --even --back --frames 36 --size 320x260 --zoom 1.25
      --azimuth 16 --elevation 12 --quality draft"
-    "sake-cup-to-pot ../sake-cup+../sake-pot --a0 25 --a1 25 --a2 25 --b0 -8 : --along t=-10..10 --even --back
+    "sake-cup-to-pot ../sake-cup+../sake-pot : --along t=-10..10 --even --back
      --frames 36 --size 320x250 --zoom 1.7 --quality draft"
 )
 

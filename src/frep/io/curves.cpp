@@ -25,8 +25,20 @@ Affine Affine::operator*(const Affine& inner) const {
             b * inner.c + d * inner.d, a * inner.e + c * inner.f + e, b * inner.e + d * inner.f + f};
 }
 
+double Affine::norm() const { return math::hypot(math::hypot(a, b), math::hypot(c, d)); }
+
+CurveContour mapped(const CurveContour& contour, const Affine& map) {
+    CurveContour out{map(contour.start), contour.segments, contour.closed};
+    for (Segment& segment : out.segments) {
+        segment.c1 = map(segment.c1);
+        segment.c2 = map(segment.c2);
+        segment.to = map(segment.to);
+    }
+    return out;
+}
+
 void CurveWriter::move(Vec2 p) {
-    at_ = p;
+    at_ = start_ = p;
     if (!contours_.empty() && contours_.back().segments.empty()) contours_.pop_back();
     contours_.push_back({map_(p), {}});
 }
@@ -91,11 +103,17 @@ void CurveWriter::arc(const ArcShape& shape, Vec2 p) {
     }
 }
 
+void CurveWriter::close() {
+    line(start_);
+    contours_.back().closed = true;
+}
+
 void CurveWriter::ellipse(Vec2 centre, double rx, double ry) {
     const Vec2 east{centre.x + rx, centre.y}, west{centre.x - rx, centre.y};
     move(east);
     arc({rx, ry, 0, false, true}, west);
     arc({rx, ry, 0, false, true}, east);
+    close();
 }
 
 std::vector<CurveContour> CurveWriter::take() {
@@ -125,32 +143,43 @@ Box2 box_of(const std::vector<CurveContour>& contours) {
     return box;
 }
 
-std::vector<std::vector<Vec2>> polygons_of(const std::vector<CurveContour>& contours, double tolerance) {
+CurvePoints points_of(const CurveContour& contour, double tolerance, std::size_t most) {
     constexpr double most_pieces = 2000;
-    std::vector<std::vector<Vec2>> out;
-    for (const CurveContour& contour : contours) {
-        std::vector<Vec2> polygon{contour.start};
-        const auto add = [&polygon](Vec2 p) {
-            if (!(polygon.back() == p)) polygon.push_back(p);
-        };
-        Vec2 at = contour.start;
-        for (const Segment& s : contour.segments) {
-            if (!s.is_line) {
-                const double bend =
-                    std::max(length(at - s.c1 * 2.0 + s.c2), length(s.c1 - s.c2 * 2.0 + s.to));
-                const double wanted = tolerance > 0 ? std::sqrt(0.75 * bend / tolerance) : most_pieces;
-                const int pieces = static_cast<int>(std::ceil(std::clamp(wanted, 1.0, most_pieces)));
-                for (int i = 1; i < pieces; ++i) {
-                    const double t = static_cast<double>(i) / pieces, r = 1 - t;
-                    add(at * (r * r * r) + s.c1 * (3 * r * r * t) + s.c2 * (3 * r * t * t) +
-                        s.to * (t * t * t));
-                }
+    CurvePoints out{{contour.start}, {false}};
+    const auto add = [&out](Vec2 p, bool is_smooth) {
+        if (out.points.back() == p) return;
+        out.points.push_back(p);
+        out.is_smooth.push_back(is_smooth);
+    };
+    Vec2 at = contour.start;
+    for (const Segment& s : contour.segments) {
+        if (!s.is_line) {
+            const double bend = std::max(length(at - s.c1 * 2.0 + s.c2), length(s.c1 - s.c2 * 2.0 + s.to));
+            const double wanted = tolerance > 0 ? std::sqrt(0.75 * bend / tolerance) : most_pieces;
+            const int pieces = static_cast<int>(std::ceil(std::clamp(wanted, 1.0, most_pieces)));
+            for (int i = 1; i < pieces; ++i) {
+                const double t = static_cast<double>(i) / pieces, r = 1 - t;
+                add(at * (r * r * r) + s.c1 * (3 * r * r * t) + s.c2 * (3 * r * t * t) + s.to * (t * t * t),
+                    true);
             }
-            add(s.to);
-            at = s.to;
         }
+        add(s.to, false);
+        at = s.to;
+        if (out.points.size() > most) break;
+    }
+    return out;
+}
+
+std::vector<std::vector<Vec2>> polygons_of(const std::vector<CurveContour>& contours, double tolerance,
+                                           std::size_t most) {
+    std::vector<std::vector<Vec2>> out;
+    std::size_t count = 0;
+    for (const CurveContour& contour : contours) {
+        std::vector<Vec2> polygon = points_of(contour, tolerance, most - count).points;
         while (polygon.size() > 1 && polygon.front() == polygon.back()) polygon.pop_back();
+        count += polygon.size();
         if (polygon.size() > 2) out.push_back(std::move(polygon));
+        if (count > most) break;
     }
     return out;
 }

@@ -1,4 +1,4 @@
-// Closed contours of lines and cubic Bezier curves (private to io), as SVG paths and glyphs give them, and
+// Contours of lines and cubic Bezier curves (private to io), as SVG paths and glyphs give them, and
 // their polygons. Elliptical arcs become cubics of at most 22.5 degrees, which leave the ellipse by less than
 // 1e-7 of its larger semi-axis. Tested by tests/unit/io/curves_test.cpp.
 #pragma once
@@ -17,6 +17,8 @@ struct Affine {
     Vec2 operator()(Vec2 p) const { return {a * p.x + c * p.y + e, b * p.x + d * p.y + f}; }
     /// First `inner`, then this.
     Affine operator*(const Affine& inner) const;
+    /// At least the factor by which lengths grow; 0 only if all points go to one.
+    double norm() const;
 };
 
 /// A line or a cubic from where the one before ends.
@@ -25,11 +27,15 @@ struct Segment {
     Vec2 c1, c2, to;
 };
 
-/// Closed by a line from its end to its start.
+/// Filled as if closed by a line from its end to its start; a line along it is closed only where `closed`.
 struct CurveContour {
     Vec2 start;
     std::vector<Segment> segments;
+    bool closed = false;
 };
+
+/// The contour with each point sent through a map.
+CurveContour mapped(const CurveContour& contour, const Affine& map);
 
 /// The radii, the turn of the x-axis in degrees and the flags of an arc, as in SVG path data.
 struct ArcShape {
@@ -49,6 +55,8 @@ class CurveWriter {
     void cubic(Vec2 c1, Vec2 c2, Vec2 p);
     /// From the present point to p (SVG 1.1, F.6: radii that are too small grow, ones of 0 give a line).
     void arc(const ArcShape& shape, Vec2 p);
+    /// Ends the contour where it began.
+    void close();
     /// A whole ellipse as a contour.
     void ellipse(Vec2 centre, double rx, double ry);
 
@@ -60,7 +68,7 @@ class CurveWriter {
     void add(const Segment& segment);
 
     Affine map_;
-    Vec2 at_;  ///< before the map
+    Vec2 at_, start_;  ///< before the map
     std::vector<CurveContour> contours_;
 };
 
@@ -74,10 +82,21 @@ struct Box2 {
 };
 Box2 box_of(const std::vector<CurveContour>& contours);
 
-/// Polygons with vertices on the curves, whose edges stay within `tolerance` of them (G. Wang, The
-/// subdivision method for finding the intersection between two Bezier curves or surfaces, 1984: so many
-/// pieces suffice). Contours that collapse to fewer than three vertices are left out.
-std::vector<std::vector<Vec2>> polygons_of(const std::vector<CurveContour>& contours, double tolerance);
+/// Points on the curves of a contour, from its start to its end, no two equal ones in a row.
+struct CurvePoints {
+    std::vector<Vec2> points;
+    std::vector<bool> is_smooth;  ///< of each point: it lies inside a curve
+};
+
+/// Points whose joining lines stay within `tolerance` of the curves (G. Wang, The subdivision method for
+/// finding the intersection between two Bezier curves or surfaces, 1984: so many pieces suffice). Stops
+/// early with more than `most` points.
+CurvePoints points_of(const CurveContour& contour, double tolerance, std::size_t most);
+
+/// Polygons of the points of the contours. Those that collapse to fewer than three vertices are left out.
+/// Stops early with more than `most` points altogether.
+std::vector<std::vector<Vec2>> polygons_of(const std::vector<CurveContour>& contours, double tolerance,
+                                           std::size_t most);
 
 /// Curves become polygons within this part of the larger side of what they belong to.
 inline constexpr double curve_tolerance = 2e-5;

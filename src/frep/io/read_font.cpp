@@ -1,6 +1,7 @@
 // Text as areas. See read_font.h.
 #include "frep/io/read_font.h"
 
+#include <algorithm>
 #include <map>
 #include <memory>
 
@@ -8,11 +9,13 @@
 
 #include <ft2build.h>
 #include FT_FREETYPE_H
+#include FT_FONT_FORMATS_H
 #include FT_OUTLINE_H
 #include FT_TRUETYPE_TABLES_H
 
 #include "frep/base/code_points.h"
 #include "frep/io/curves.h"
+#include "frep/io/read_formats.h"
 
 namespace frep {
 
@@ -58,27 +61,60 @@ double capital_height(FT_Face face) {
     return 0.7 * face->units_per_EM;
 }
 
+/// An open font with outlines and a table of Unicode characters.
+struct OpenFont {
+    std::unique_ptr<FT_LibraryRec_, LibraryEnd> library;
+    std::unique_ptr<FT_FaceRec_, FaceEnd> face;
+};
+
+Result<OpenFont> open_font(std::string_view font) {
+    FT_Library library = nullptr;
+    if (FT_Init_FreeType(&library) != 0) return Error{ErrorKind::io, "FreeType does not start"};
+    OpenFont out{std::unique_ptr<FT_LibraryRec_, LibraryEnd>(library), nullptr};
+    FT_Face face = nullptr;
+    if (FT_New_Memory_Face(library, reinterpret_cast<const FT_Byte*>(font.data()),
+                           static_cast<FT_Long>(font.size()), 0, &face) != 0)
+        return Error{ErrorKind::io, "not a font, or a damaged one"};
+    out.face.reset(face);
+    if (!FT_IS_SCALABLE(face) || face->units_per_EM == 0)
+        return Error{ErrorKind::io, "the font has no outlines"};
+    if (FT_Select_Charmap(face, FT_ENCODING_UNICODE) != 0)
+        return Error{ErrorKind::io, "the font has no table of Unicode characters"};
+    return out;
+}
+
 }  // namespace
+
+Result<FontFacts> font_facts(std::string_view font) {
+    const auto open = open_font(font);
+    if (!open) return open.error();
+    const FT_Face face = open->face.get();
+    FontFacts out;
+    const auto text = [](const char* name) { return name ? reading::object_name(name) : std::string(); };
+    out.format = text(FT_Get_Font_Format(face));
+    out.family = text(face->family_name);
+    out.style = text(face->style_name);
+    out.faces = static_cast<std::size_t>(std::max<FT_Long>(1, face->num_faces));
+    out.glyphs = static_cast<std::size_t>(std::max<FT_Long>(0, face->num_glyphs));
+    constexpr std::size_t most_code_points = 0x110000;  // damaged tables may go round in circles
+    FT_UInt glyph = 0;
+    for (FT_ULong c = FT_Get_First_Char(face, &glyph); glyph != 0 && out.characters < most_code_points;
+         c = FT_Get_Next_Char(face, c, &glyph))
+        ++out.characters;
+    out.capital_height = capital_height(face) / face->units_per_EM;
+    out.has_kerning = FT_HAS_KERNING(face);
+    return out;
+}
 
 Result<AreaFile> read_text(std::string_view font, std::string_view text) {
     const std::u32string line = code_points(text);
     if (line.size() > most_characters)
         return Error{ErrorKind::over_limit,
                      fmt::format("a text of more than {} characters", most_characters)};
-    FT_Library raw_library = nullptr;
-    if (FT_Init_FreeType(&raw_library) != 0) return Error{ErrorKind::io, "FreeType does not start"};
-    const std::unique_ptr<FT_LibraryRec_, LibraryEnd> library(raw_library);
-    FT_Face raw_face = nullptr;
-    if (FT_New_Memory_Face(library.get(), reinterpret_cast<const FT_Byte*>(font.data()),
-                           static_cast<FT_Long>(font.size()), 0, &raw_face) != 0)
-        return Error{ErrorKind::io, "not a font, or a damaged one"};
-    const std::unique_ptr<FT_FaceRec_, FaceEnd> face(raw_face);
-    if (!FT_IS_SCALABLE(face.get()) || face->units_per_EM == 0)
-        return Error{ErrorKind::io, "the font has no outlines"};
-    if (FT_Select_Charmap(face.get(), FT_ENCODING_UNICODE) != 0)
-        return Error{ErrorKind::io, "the font has no table of Unicode characters"};
-
-    const double unit = 1.0 / capital_height(face.get());
+    const auto open = open_font(font);
+    if (!open) return open.error();
+    const FT_Face face = open->face.get();
+    const double unit = 1.0 / capital_height(face);
     FT_Outline_Funcs draw{};
     draw.move_to = on_move;
     draw.line_to = on_line;
@@ -91,15 +127,14 @@ Result<AreaFile> read_text(std::string_view font, std::string_view text) {
     FT_UInt before = 0;
     std::size_t edges = 0;
     for (const char32_t character : line) {
-        const FT_UInt glyph = FT_Get_Char_Index(face.get(), character);
+        const FT_UInt glyph = FT_Get_Char_Index(face, character);
         if (glyph == 0) ++missing[character];
         FT_Vector kerning{0, 0};
-        if (before != 0 && glyph != 0 && FT_HAS_KERNING(face.get()) &&
-            FT_Get_Kerning(face.get(), before, glyph, FT_KERNING_UNSCALED, &kerning) == 0)
+        if (before != 0 && glyph != 0 && FT_HAS_KERNING(face) &&
+            FT_Get_Kerning(face, before, glyph, FT_KERNING_UNSCALED, &kerning) == 0)
             at += static_cast<double>(kerning.x);
         before = glyph;
-        if (FT_Load_Glyph(face.get(), glyph, load_flags) != 0 ||
-            face->glyph->format != FT_GLYPH_FORMAT_OUTLINE)
+        if (FT_Load_Glyph(face, glyph, load_flags) != 0 || face->glyph->format != FT_GLYPH_FORMAT_OUTLINE)
             return Error{ErrorKind::io, fmt::format("the font's glyph for U+{:04X} is damaged",
                                                     static_cast<std::uint32_t>(character))};
         CurveWriter curves({unit, 0, 0, unit, at * unit, 0});
@@ -107,7 +142,7 @@ Result<AreaFile> read_text(std::string_view font, std::string_view text) {
             return Error{ErrorKind::io, fmt::format("the font's glyph for U+{:04X} is damaged",
                                                     static_cast<std::uint32_t>(character))};
         at += static_cast<double>(face->glyph->metrics.horiAdvance);
-        for (auto& polygon : polygons_of(curves.contours(), text_tolerance)) {
+        for (auto& polygon : polygons_of(curves.contours(), text_tolerance, most_area_edges)) {
             edges += polygon.size();
             out.area.parts[0].contours.push_back(std::move(polygon));
         }

@@ -3,6 +3,8 @@
 // docs/outlines.md.
 #pragma once
 
+#include <cstddef>
+#include <string>
 #include <string_view>
 
 #include "frep/base/result.h"
@@ -17,5 +19,19 @@ namespace frep {
 /// collection gives its first font. Errors: io for a file that is none; invalid_argument when the text shows
 /// nothing; over_limit beyond 10,000 characters or 200,000 edges.
 Result<AreaFile> read_text(std::string_view font, std::string_view text);
+
+/// What a font file is.
+struct FontFacts {
+    std::string format;         ///< "TrueType", "CFF", ...
+    std::string family, style;  ///< "DejaVu Sans", "Bold"; may be empty
+    std::size_t faces = 1;      ///< fonts in the file; the others tell of the first one
+    std::size_t glyphs = 0;
+    std::size_t characters = 0;  ///< of Unicode that it has glyphs for
+    double capital_height = 0;   ///< of an H, in parts of the em
+    bool has_kerning = false;    ///< a `kern` table
+};
+
+/// Errors: those of read_text() for the font.
+Result<FontFacts> font_facts(std::string_view font);
 
 }  // namespace frep

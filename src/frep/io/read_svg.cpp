@@ -11,6 +11,8 @@
 
 #include "frep/io/read_formats.h"
 #include "frep/io/svg_data.h"
+#include "frep/io/svg_shapes.h"
+#include "frep/io/svg_style.h"
 
 namespace frep {
 
@@ -20,13 +22,18 @@ using namespace reading;
 using pugi::xml_node;
 
 constexpr std::size_t most_bytes = std::size_t{64} << 20;
+constexpr std::size_t most_marks = 4'000'000;  ///< tags and attributes of the text: each takes up to 64 bytes
+constexpr double most_coordinate = 1e12;       ///< after all transforms
+constexpr double most_scale = 1e100;           ///< of all transforms together
 constexpr std::size_t most_elements = 200'000;  ///< visited, elements shown by `use` counted each time
 constexpr int most_depth = 100;
 
-/// What elements inherit.
-struct Style {
-    bool filled = true, visible = true;
-    FillRule rule = FillRule::nonzero;
+/// A painted element: contours in its own coordinates, and their way to the model's.
+struct Shape {
+    std::vector<CurveContour> contours;
+    Affine map;
+    bool is_filled, is_stroked;
+    Style style;
 };
 
 class Drawing {
@@ -34,11 +41,16 @@ class Drawing {
     explicit Drawing(std::string_view bytes) : bytes_(bytes), text_(bytes) {}
 
     Result<AreaFile> read() {
+        const auto marks =
+            std::count_if(text_.begin(), text_.end(), [](char c) { return c == '<' || c == '='; });
+        if (static_cast<std::size_t>(marks) > most_marks)
+            return Error{ErrorKind::over_limit, fmt::format("more than {} tags and attributes", most_marks)};
         const pugi::xml_parse_result parsed = document_.load_buffer_inplace(
             text_.data(), text_.size(), pugi::parse_default, pugi::encoding_auto);
         if (!parsed) return error_at(static_cast<std::size_t>(parsed.offset), parsed.description());
         const xml_node root = document_.document_element();
         if (local_name(root) != "svg") return error_at(offset_of(root), "the root element is no `svg`");
+        if (const Status status = collect(); !status) return status.error();
         Affine map;
         if (const Status status = root_map(root, map); !status) return status.error();
         if (const Status status = visit(root, map, {}, 0); !status) return status.error();
@@ -46,13 +58,6 @@ class Drawing {
     }
 
   private:
-    /// The element's name without a prefix: Inkscape's svg:path is a path.
-    static std::string_view local_name(xml_node node) {
-        const std::string_view name = node.name();
-        const std::size_t colon = name.find(':');
-        return colon == std::string_view::npos ? name : name.substr(colon + 1);
-    }
-
     Error error_at(std::size_t offset, std::string_view message) const {
         const std::string_view before = bytes_.substr(0, std::min(offset, bytes_.size()));
         const std::size_t line_start = before.rfind('\n') + 1;  // npos + 1 is 0
@@ -72,50 +77,9 @@ class Drawing {
                         message);
     }
 
-    /// The value of a property: `style` before the attribute; empty when neither says it.
-    static std::string_view property(xml_node node, std::string_view name) {
-        std::string_view style = node.attribute("style").value();
-        const auto trimmed = [](std::string_view s) {
-            while (!s.empty() && (s.front() == ' ' || s.front() == '\n' || s.front() == '\t'))
-                s.remove_prefix(1);
-            while (!s.empty() && (s.back() == ' ' || s.back() == '\n' || s.back() == '\t'))
-                s.remove_suffix(1);
-            return s;
-        };
-        while (!style.empty()) {
-            const std::size_t end = std::min(style.find(';'), style.size());
-            const std::string_view declaration = style.substr(0, end);
-            style.remove_prefix(std::min(end + 1, style.size()));
-            const std::size_t colon = declaration.find(':');
-            if (colon != std::string_view::npos && trimmed(declaration.substr(0, colon)) == name)
-                return trimmed(declaration.substr(colon + 1));
-        }
-        return trimmed(node.attribute(std::string(name).c_str()).value());
-    }
-
-    static Style inherited(xml_node node, Style style) {
-        const std::string_view fill = property(node, "fill"), rule = property(node, "fill-rule"),
-                               visibility = property(node, "visibility");
-        if (!fill.empty() && fill != "inherit") style.filled = fill != "none" && fill != "transparent";
-        if (rule == "evenodd") style.rule = FillRule::even_odd;
-        if (rule == "nonzero") style.rule = FillRule::nonzero;
-        if (visibility == "visible") style.visible = true;
-        if (visibility == "hidden" || visibility == "collapse") style.visible = false;
-        return style;
-    }
-
-    /// A length in user units; `whole` is what 100% is.
-    Result<double> length(xml_node node, const char* name, double whole, double missing = 0) const {
-        const pugi::xml_attribute attribute = node.attribute(name);
-        const std::string_view text = attribute.value();
-        if (text.empty() || text == "auto") return missing;
-        const auto read = parse_length(text);
-        if (read && read->unit.empty()) return read->number;
-        if (read && read->unit == "%") return read->number / 100 * whole;
-        const auto unit = read ? millimetres(read->unit) : std::nullopt;
-        if (!unit)
-            return error_in(node, attribute, 0, fmt::format("expected a length, found {}", quoted(text)));
-        return read->number * *unit / *millimetres("px");
+    Error error_in(xml_node node, const ElementError& error) const {
+        return error.attribute ? error_in(node, error.attribute, error.offset, error.message)
+                               : error_at(offset_of(node), error.message);
     }
 
     /// The numbers of a viewBox; empty when there is none.
@@ -162,13 +126,19 @@ class Drawing {
                 ErrorKind::over_limit,
                 error_at(offset_of(node), fmt::format("elements nest deeper than {}", most_depth)).message};
         const std::string_view name = local_name(node);
-        if (property(node, "display") == "none") return {};
-        const Style style = inherited(node, outer_style);
+        const Declarations declarations = sheets_.of(node);
+        if (declarations[Property::display] == "none") return {};
+        Style style = inherited(declarations, outer_style);
+        if (const std::string_view width = declarations[Property::stroke_width]; !width.empty())
+            if (const auto error = parse_svg_length(width, diagonal_unit(view_), style.pen.width))
+                return error_at(offset_of(node), "stroke-width: " + *error);
         Affine map;
         const pugi::xml_attribute transform = node.attribute("transform");
         if (const auto error = parse_transform(transform.value(), map))
             return error_in(node, transform, error->offset, error->message);
         map = outer * map;
+        if (!(map.norm() + std::fabs(map.e) + std::fabs(map.f) <= most_scale))
+            return error_at(offset_of(node), "the transforms lead beyond all bounds");
         if (name == "svg" || name == "g" || name == "a" || name == "symbol" || name == "switch") {
             if (name != "g" && name != "a" && depth > 0)
                 if (const Status status = nested_map(node, map); !status) return status;
@@ -179,7 +149,9 @@ class Drawing {
             return {};
         }
         if (name == "use") return visit_used(node, map, style, depth);
-        return draw(node, name, map, style);
+        if (is_shape(name)) return draw(node, name, map, style, declarations);
+        if (name == "text" || name == "image" || name == "foreignObject") note(fmt::format("`{}`", name));
+        return {};
     }
 
     /// An inner svg or symbol has a place and a view of its own.
@@ -188,11 +160,9 @@ class Drawing {
         if (!box) return box.error();
         double v[4] = {0, 0, 0, 0};
         const char* names[4] = {"x", "y", "width", "height"};
-        for (int i = 0; i < 4; ++i) {
-            const auto value = length(node, names[i], i % 2 ? view_.y : view_.x);
-            if (!value) return value.error();
-            v[i] = *value;
-        }
+        for (int i = 0; i < 4; ++i)
+            if (const auto error = read_length(node.attribute(names[i]), i % 2 ? view_.y : view_.x, v[i]))
+                return error_in(node, *error);
         map = map * Affine{1, 0, 0, 1, v[0], v[1]};
         if (box->empty()) return {};
         const std::vector<double>& b = *box;
@@ -212,21 +182,24 @@ class Drawing {
             note("`use` of something outside the file");
             return {};
         }
-        if (ids_.empty()) collect_ids();
         const auto found = ids_.find(std::string(name.substr(1)));
         if (found == ids_.end())
             return error_in(node, href, 0, fmt::format("there is no element {}", quoted(name)));
-        const auto x = length(node, "x", view_.x), y = length(node, "y", view_.y);
-        if (!x) return x.error();
-        if (!y) return y.error();
-        return visit(found->second, map * Affine{1, 0, 0, 1, *x, *y}, style, depth + 1);
+        double x = 0, y = 0;
+        if (const auto error = read_length(node.attribute("x"), view_.x, x)) return error_in(node, *error);
+        if (const auto error = read_length(node.attribute("y"), view_.y, y)) return error_in(node, *error);
+        return visit(found->second, map * Affine{1, 0, 0, 1, x, y}, style, depth + 1);
     }
 
-    /// A walk without recursion: files may nest as deep as they like in parts that are not shown.
-    void collect_ids() {
+    /// Names and style sheets, by a walk without recursion: files may nest as deep as they like in parts that
+    /// are not shown.
+    Status collect() {
         xml_node node = document_.document_element();
         while (node) {
             if (const pugi::xml_attribute id = node.attribute("id")) ids_.emplace(id.value(), node);
+            if (local_name(node) == "style")
+                for (const xml_node child : node.children())
+                    if (const Status status = sheets_.add(child.value()); !status) return status;
             xml_node next = node.first_child();
             while (!next && node) {
                 next = node.next_sibling();
@@ -234,125 +207,102 @@ class Drawing {
             }
             node = next;
         }
-        ids_.emplace("", xml_node());  // not empty, even without names
+        return {};
     }
 
     void note(std::string_view what) { ++left_out_[std::string(what)]; }
 
-    Status draw(xml_node node, std::string_view name, const Affine& map, const Style& style) {
-        CurveWriter out(map);
-        if (name == "path") {
-            const pugi::xml_attribute d = node.attribute("d");
-            if (const auto error = draw_path(d.value(), out))
-                return error_in(node, d, error->offset, error->message);
-        } else if (name == "polygon" || name == "polyline") {
-            if (const Status status = draw_points(node, out); !status) return status;
-        } else if (name == "rect") {
-            if (const Status status = draw_rectangle(node, out); !status) return status;
-        } else if (name == "circle" || name == "ellipse") {
-            if (const Status status = draw_ellipse(node, name == "circle", out); !status) return status;
-        } else {
-            if (name == "text" || name == "image" || name == "style" || name == "foreignObject")
-                note(fmt::format("`{}`", name));
-            return {};
-        }
+    Status draw(xml_node node, std::string_view name, const Affine& map, const Style& style,
+                const Declarations& declarations) {
+        CurveWriter out;
+        if (const auto error = draw_shape(node, name, view_, out)) return error_in(node, *error);
         std::vector<CurveContour> contours = out.take();
         for (const CurveContour& contour : contours) segments_ += contour.segments.size() + 1;
         if (segments_ > most_area_edges)
             return Error{ErrorKind::over_limit, fmt::format("more than {} edges", most_area_edges)};
-        if (!style.visible) return {};
-        if (!style.filled) {
-            ++unfilled_;
-            return {};
-        }
-        if (!contours.empty()) parts_.push_back({std::move(contours), style.rule});
+        if (!style.is_visible || contours.empty()) return {};
+        for (const Property property : {Property::clip_path, Property::mask, Property::marker,
+                                        Property::marker_start, Property::marker_mid, Property::marker_end})
+            if (const std::string_view value = declarations[property]; !value.empty() && value != "none")
+                note(fmt::format("`{}`", name_of(property)));
+        const bool is_stroked = style.is_stroked && style.pen.width > 0;
+        if (is_stroked && style.is_dashed) note("`stroke-dasharray`");
+        if (is_stroked && declarations[Property::vector_effect] == "non-scaling-stroke")
+            note("`non-scaling-stroke`");
+        if (style.is_filled || is_stroked)
+            shapes_.push_back({std::move(contours), map, style.is_filled, is_stroked, style});
+        else
+            ++unpainted_;
         return {};
     }
 
-    Status draw_points(xml_node node, CurveWriter& out) {
-        const pugi::xml_attribute points = node.attribute("points");
-        std::vector<double> v;
-        if (const auto error = parse_numbers(points.value(), v))
-            return error_in(node, points, error->offset, error->message);
-        if (v.size() % 2 != 0) return error_in(node, points, 0, "points are pairs of numbers");
-        for (std::size_t i = 0; i + 1 < v.size(); i += 2)
-            i ? out.line({v[i], v[i + 1]}) : out.move({v[0], v[1]});
-        return {};
-    }
-
-    Status draw_rectangle(xml_node node, CurveWriter& out) {
-        double v[6];
-        const char* names[6] = {"x", "y", "width", "height", "rx", "ry"};
-        for (int i = 0; i < 6; ++i) {
-            const auto value = length(node, names[i], i % 2 ? view_.y : view_.x, i < 4 ? 0 : -1);
-            if (!value) return value.error();
-            v[i] = *value;
-        }
-        const double x = v[0], y = v[1], w = v[2], h = v[3];
-        if (w < 0 || h < 0) return error_at(offset_of(node), "a width or height below 0");
-        if (w == 0 || h == 0) return {};
-        double rx = v[4] < 0 ? v[5] : v[4], ry = v[5] < 0 ? v[4] : v[5];
-        rx = std::clamp(rx, 0.0, 0.5 * w);
-        ry = std::clamp(ry, 0.0, 0.5 * h);
-        const ArcShape round{rx, ry, 0, false, true};
-        out.move({x + rx, y});
-        out.line({x + w - rx, y});
-        out.arc(round, {x + w, y + ry});
-        out.line({x + w, y + h - ry});
-        out.arc(round, {x + w - rx, y + h});
-        out.line({x + rx, y + h});
-        out.arc(round, {x, y + h - ry});
-        out.line({x, y + ry});
-        out.arc(round, {x + rx, y});
-        return {};
-    }
-
-    Status draw_ellipse(xml_node node, bool circle, CurveWriter& out) {
-        const double whole = std::sqrt(0.5 * (view_.x * view_.x + view_.y * view_.y));
-        const auto cx = length(node, "cx", view_.x), cy = length(node, "cy", view_.y);
-        const auto rx = length(node, circle ? "r" : "rx", circle ? whole : view_.x, circle ? 0 : -1);
-        const auto ry = length(node, circle ? "r" : "ry", circle ? whole : view_.y, circle ? 0 : -1);
-        for (const auto* value : {&cx, &cy, &rx, &ry})
-            if (!*value) return value->error();
-        const double a = *rx < 0 ? *ry : *rx, b = *ry < 0 ? *rx : *ry;
-        if (a > 0 && b > 0) out.ellipse({*cx, *cy}, a, b);
-        return {};
-    }
-
-    Result<AreaFile> finish(xml_node root) {
-        if (parts_.empty())
-            return error_at(offset_of(root),
-                            unfilled_ > 0 ? "nothing is filled: all shapes have `fill` none, and strokes "
-                                            "are not read"
-                                          : "there is no path or shape");
+    /// The box of all that is painted.
+    Box2 box_of_all() const {
         Box2 box;
-        for (const Curves& part : parts_) {
-            const Box2 one = box_of(part.contours);
-            if (one.is_empty()) continue;
-            box.add(one.min);
-            box.add(one.max);
+        for (const Shape& shape : shapes_) {
+            const double reach = shape.is_stroked ? 0.5 * shape.style.pen.width * shape.map.norm() : 0;
+            for (const CurveContour& contour : shape.contours) {
+                const Box2 one = box_of({mapped(contour, shape.map)});
+                if (one.is_empty()) continue;
+                box.add(one.min - Vec2{reach, reach});
+                box.add(one.max + Vec2{reach, reach});
+            }
         }
-        AreaFile out;
-        std::size_t edges = 0;
-        for (const Curves& part : parts_) {
-            FilledPart filled{polygons_of(part.contours, curve_tolerance * box.larger_side()), part.rule};
-            for (const auto& polygon : filled.contours) edges += polygon.size();
-            if (edges > most_area_edges)
-                return Error{ErrorKind::over_limit, fmt::format("more than {} edges", most_area_edges)};
-            if (!filled.contours.empty()) out.area.parts.push_back(std::move(filled));
-        }
-        if (out.area.parts.empty()) return error_at(offset_of(root), "the filled shapes have no area");
-        for (const auto& [what, count] : left_out_)
-            out.notes.push_back(fmt::format("{} is not read ({} times)", what, count));
-        if (unfilled_ > 0)
-            out.notes.push_back(fmt::format("{} shapes are not filled and count for nothing", unfilled_));
+        return box;
+    }
+
+    std::vector<std::vector<Vec2>> filled(const Shape& shape, double tolerance, std::size_t most) const {
+        std::vector<CurveContour> contours;
+        for (const CurveContour& contour : shape.contours) contours.push_back(mapped(contour, shape.map));
+        return polygons_of(contours, tolerance, most);
+    }
+
+    /// The pen keeps its shape in the element's own coordinates, where the lines are found.
+    std::vector<std::vector<Vec2>> stroked(const Shape& shape, double tolerance, std::size_t most) const {
+        std::vector<std::vector<Vec2>> out;
+        const double inner = tolerance / shape.map.norm();
+        std::size_t count = 0;
+        for (const CurveContour& contour : shape.contours)
+            append_stroke(points_of(contour, inner, most), contour.closed, shape.style.pen, inner, most,
+                          count, out);
+        for (auto& polygon : out)
+            for (Vec2& p : polygon) p = shape.map(p);
         return out;
     }
 
-    struct Curves {
-        std::vector<CurveContour> contours;
-        FillRule rule;
-    };
+    Result<AreaFile> finish(xml_node root) {
+        if (shapes_.empty())
+            return error_at(offset_of(root),
+                            unpainted_ > 0 ? "nothing is painted: all shapes have neither fill nor stroke"
+                                           : "there is no path or shape");
+        const Box2 box = box_of_all();
+        if (!(std::max({-box.min.x, -box.min.y, box.max.x, box.max.y}) <= most_coordinate))
+            return error_at(offset_of(root),
+                            "after all transforms coordinates are beyond 1e12, or not finite");
+        const double tolerance = curve_tolerance * box.larger_side();
+        AreaFile out;
+        std::size_t edges = 0;
+        const auto add = [&](FilledPart part) {
+            for (const auto& polygon : part.contours) edges += polygon.size();
+            if (!part.contours.empty()) out.area.parts.push_back(std::move(part));
+        };
+        for (const Shape& shape : shapes_) {
+            if (shape.is_filled) add({filled(shape, tolerance, most_area_edges), shape.style.rule});
+            if (shape.is_stroked && shape.map.norm() > 0)
+                add({stroked(shape, tolerance, most_area_edges), FillRule::nonzero});
+            if (edges > most_area_edges)
+                return Error{ErrorKind::over_limit, fmt::format("more than {} edges", most_area_edges)};
+        }
+        if (out.area.parts.empty()) return error_at(offset_of(root), "the painted shapes have no area");
+        std::map<std::string, std::size_t> left_out = left_out_;
+        left_out.insert(sheets_.left_out().begin(), sheets_.left_out().end());
+        for (const auto& [what, count] : left_out)
+            out.notes.push_back(fmt::format("not read: {} ({} times)", what, count));
+        if (unpainted_ > 0)
+            out.notes.push_back(
+                fmt::format("{} shapes have neither fill nor stroke and count for nothing", unpainted_));
+        return out;
+    }
 
     std::string_view bytes_;
     std::string text_;
@@ -360,8 +310,9 @@ class Drawing {
     Vec2 view_{100, 100};
     std::map<std::string, xml_node> ids_;
     std::map<std::string, std::size_t> left_out_;
-    std::vector<Curves> parts_;
-    std::size_t elements_ = 0, segments_ = 0, unfilled_ = 0, work_ = 0;
+    StyleSheets sheets_;
+    std::vector<Shape> shapes_;
+    std::size_t elements_ = 0, segments_ = 0, unpainted_ = 0, work_ = 0;
 };
 
 }  // namespace

@@ -9,12 +9,15 @@
 #include <algorithm>
 #include <exception>
 #include <istream>
+#include <memory>
+#include <optional>
 #include <streambuf>
 
 #include <fmt/format.h>
 
 #define IMATH_HALF_NO_LOOKUP_TABLE  // no half numbers here, so nothing of Imath is to be linked
-#include <openvdb/io/Stream.h>
+#include <openvdb/io/Archive.h>
+#include <openvdb/io/GridDescriptor.h>
 #include <openvdb/openvdb.h>
 #include <openvdb/tools/Dense.h>
 
@@ -76,29 +79,93 @@ Result<VolumeFile> dense(const Grid& grid) {
     return out;
 }
 
-Result<VolumeFile> read_grids(std::string_view bytes) {
-    openvdb::initialize();
-    MemoryBuffer buffer(bytes);
-    std::istream in(&buffer);
-    in.exceptions(std::ios::badbit | std::ios::failbit);
-    openvdb::io::Stream stream(in, /*delayLoad=*/false);
-    const openvdb::GridPtrVecPtr grids = stream.getGrids();
-    for (std::size_t i = 0; grids && i < grids->size(); ++i) {
-        const openvdb::GridBase& grid = *(*grids)[i];
-        const auto finish = [&](Result<VolumeFile> volume) {
-            if (volume && grids->size() > 1)
-                volume->notes.push_back(
-                    fmt::format("of {} grids, `{}` is read", grids->size(), grid.getName()));
-            return volume;
-        };
-        if (grid.isType<openvdb::FloatGrid>())
-            return finish(dense(static_cast<const openvdb::FloatGrid&>(grid)));
-        if (grid.isType<openvdb::DoubleGrid>())
-            return finish(dense(static_cast<const openvdb::DoubleGrid&>(grid)));
-        if (grid.isType<openvdb::Int32Grid>())
-            return finish(dense(static_cast<const openvdb::Int32Grid&>(grid)));
+/// The lengths that a file states before its texts and metadata: the library takes memory for them, up to 4
+/// GiB each, before it finds that the file is shorter.
+class StatedLengths {
+  public:
+    StatedLengths(std::string_view bytes, std::istream& in)
+        : bytes_(bytes), at_(static_cast<std::size_t>(in.tellg())) {}
+
+    StatedLengths& text() { return skip(number()); }
+    StatedLengths& skip(std::size_t count) {
+        if (count > bytes_.size() - at_) throw openvdb::IoError("it ends too early");
+        at_ += count;
+        return *this;
     }
-    return Error{ErrorKind::io, "there is no grid of float, double or int32 numbers"};
+    StatedLengths& metadata() {
+        for (std::uint32_t count = number(); count > 0; --count) text().text().text();  // name, type, value
+        return *this;
+    }
+
+  private:
+    std::uint32_t number() {
+        const std::size_t at = at_;
+        skip(sizeof(std::uint32_t));
+        return load<std::uint32_t>(bytes_.data() + at);
+    }
+
+    std::string_view bytes_;
+    std::size_t at_;
+};
+
+/// Reads grids one by one up to the first of numbers, as openvdb::io::Stream reads all of them.
+class GridReader : public openvdb::io::Archive {
+  public:
+    explicit GridReader(std::string_view bytes) : bytes_(bytes) {}
+
+    Result<VolumeFile> read() {
+        MemoryBuffer buffer(bytes_);
+        std::istream in(&buffer);
+        in.exceptions(std::ios::badbit | std::ios::failbit);
+        readHeader(in);
+        auto versions = std::make_shared<openvdb::io::StreamMetadata>();
+        openvdb::io::setStreamMetadataPtr(in, versions, /*transfer=*/false);
+        openvdb::io::setVersion(in, libraryVersion(), fileVersion());
+        openvdb::io::setDataCompression(in, compression());
+        StatedLengths(bytes_, in).metadata();
+        openvdb::MetaMap().readMeta(in);
+        const std::int32_t count = readGridCount(in);
+        for (std::int32_t i = 0; i < count; ++i) {
+            StatedLengths(bytes_, in).text().text().text();  // name, type, parent
+            openvdb::io::GridDescriptor descriptor;
+            const openvdb::GridBase::Ptr grid = descriptor.read(in);
+            StatedLengths(bytes_, in)
+                .skip(sizeof(std::uint32_t))
+                .metadata()
+                .text();  // compression; type of map
+            readGrid(grid, descriptor, in);
+            auto volume = volume_of(*grid);
+            if (!volume) continue;
+            if (*volume && count > 1)
+                (*volume)->notes.push_back(
+                    fmt::format("of {} grids, `{}` is read", count, reading::object_name(grid->getName())));
+            return std::move(*volume);
+        }
+        return Error{ErrorKind::io, "there is no grid of float, double or int32 numbers"};
+    }
+
+  private:
+    /// Nothing for grids of other things than numbers.
+    static std::optional<Result<VolumeFile>> volume_of(const openvdb::GridBase& grid) {
+        if (grid.isType<openvdb::FloatGrid>()) return dense(static_cast<const openvdb::FloatGrid&>(grid));
+        if (grid.isType<openvdb::DoubleGrid>()) return dense(static_cast<const openvdb::DoubleGrid&>(grid));
+        if (grid.isType<openvdb::Int32Grid>()) return dense(static_cast<const openvdb::Int32Grid&>(grid));
+        return std::nullopt;
+    }
+
+    std::string_view bytes_;
+};
+
+Result<VolumeFile> read_grids(std::string_view bytes) {
+    // Versions before are of 2013; of ones to come the library would print a warning of its own.
+    constexpr std::uint32_t oldest = openvdb::OPENVDB_FILE_VERSION_NODE_MASK_COMPRESSION;
+    constexpr std::uint32_t newest = openvdb::OPENVDB_FILE_VERSION;
+    const std::uint32_t version = bytes.size() < 12 ? 0 : load<std::uint32_t>(bytes.data() + 8);
+    if (version < oldest || version > newest)
+        return Error{ErrorKind::io,
+                     fmt::format("OpenVDB format {} is not read: {} to {} are", version, oldest, newest)};
+    openvdb::initialize();
+    return GridReader(bytes).read();
 }
 
 }  // namespace

@@ -137,7 +137,7 @@ class PathReader {
     }
 
     void close() {
-        out_.line(start_);
+        out_.close();
         at_ = start_;
         closed_ = true;
         before_ = 'Z';

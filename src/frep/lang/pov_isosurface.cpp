@@ -97,10 +97,10 @@ class Printer {
             text = pov_operation(node.op, texts);
         }
         if (!text)
-            return refused(
-                id,
-                fmt::format("POV-Ray has no function for the operation `{}`; `frep mesh` writes a .pov mesh",
-                            info(node.op).name));
+            return refused(id, fmt::format("POV-Ray has no function for {}; `frep mesh` writes a .pov mesh",
+                                           node.op == Op::region
+                                               ? "a loop or a search that depends on the point"
+                                               : fmt::format("the operation `{}`", info(node.op).name)));
         out.text = std::move(*text);
         ++out.depth;
         return out;

@@ -5,6 +5,7 @@
 #include "frep/io/read_svg.h"
 #include "frep/shapes/area.h"
 #include "frep/shapes/binding.h"
+#include "frep/shapes/outline_formula.h"
 
 namespace frep::shapes {
 
@@ -16,9 +17,21 @@ struct Place {
     Expression size;
 };
 
-/// Distance to the area of a file that `read` understands.
+/// Signed distance to an area.
+Result<Expression> distance_to(Build& build, const Area& area, Expression x, Expression y) {
+    Result<std::vector<double>> data = area_data(area);
+    if (!data) return data.error();
+    const NodeId lead[] = {x.id(), y.id()};
+    return Expression(build.graph, build.graph.make_block(Op::outline_distance, lead, std::move(*data)));
+}
+Result<Expression> formula_of(Build& build, const Area& area, Expression x, Expression y) {
+    return area_formula(build.set_system, area, x, y);
+}
+
+/// The area of a file that `read` understands, as the function that `make` makes of it.
 template <class Read>
-Expression area_of(Build& build, Array x, std::string_view file, std::optional<Place> place, Read read) {
+Expression area_of(Build& build, Array x, std::string_view file, std::optional<Place> place, Read read,
+                   Result<Expression> (*make)(Build&, const Area&, Expression, Expression) = distance_to) {
     if (x.size() < 2) return build.error("x must have 2 items or more");
     if (place && !place->center.empty() && place->center.size() < 2)
         return build.error("center must have 2 items or more");
@@ -29,8 +42,6 @@ Expression area_of(Build& build, Array x, std::string_view file, std::optional<P
     const char* apart =
         content || content.error().message.empty() || content.error().message[0] > '9' ? ": " : ":";
     if (!content) return build.refused(fmt::format("{}{}{}", file, apart, content.error().message));
-    Result<std::vector<double>> data = area_data(content->area);
-    if (!data) return build.refused(fmt::format("{}: {}", file, data.error().message));
     if (build.left_out)
         for (const std::string& note : content->notes) build.left_out(fmt::format("{}: {}", file, note));
 
@@ -45,12 +56,11 @@ Expression area_of(Build& build, Array x, std::string_view file, std::optional<P
         px = (px - place->center[0]) / scale + 0.5 * (box.low[0] + box.high[0]);
         py = (py - place->center[1]) / scale + 0.5 * (box.low[1] + box.high[1]);
     }
-    const NodeId lead[] = {px.id(), py.id()};
-    const Expression distance(build.graph,
-                              build.graph.make_block(Op::outline_distance, lead, std::move(*data)));
-    if (!place) return distance;
+    const Result<Expression> value = make(build, content->area, px, py);
+    if (!value) return build.refused(fmt::format("{}: {}", file, value.error().message));
+    if (!place) return *value;
     return guarded(build, less_equal(place->size, build.constant(0.0)), "the height must be above 0",
-                   distance * scale);
+                   *value * scale);
 }
 
 Expression outline(Build& build, Array x, std::string_view file) {
@@ -59,6 +69,13 @@ Expression outline(Build& build, Array x, std::string_view file) {
 Expression placed_outline(Build& build, Array x, std::string_view file, Array center, Expression height) {
     if (center.empty()) return build.error("center must have 2 items or more");
     return area_of(build, x, file, Place{center, height}, read_svg);
+}
+Expression formula(Build& build, Array x, std::string_view file) {
+    return area_of(build, x, file, std::nullopt, read_svg, formula_of);
+}
+Expression placed_formula(Build& build, Array x, std::string_view file, Array center, Expression height) {
+    if (center.empty()) return build.error("center must have 2 items or more");
+    return area_of(build, x, file, Place{center, height}, read_svg, formula_of);
 }
 Expression text(Build& build, Array x, std::string_view font, std::string_view text, Expression height) {
     return area_of(build, x, font, Place{{}, height},
@@ -75,9 +92,8 @@ Expression placed_text(Build& build, Array x, std::string_view font, std::string
 
 Rows outline_rows() {
     constexpr std::string_view svg_note =
-        "Filled paths and shapes, holes included; one unit of the drawing is one unit here, or 1 mm where "
-        "the "
-        "drawing states its width in mm, cm, in or pt; y points up. docs/outlines.md says what is read.";
+        "Fills and strokes, holes included; one unit of the drawing is one unit here, or 1 mm where "
+        "the drawing states its width in mm, cm, in or pt; y points up. docs/outlines.md says what is read.";
     constexpr std::string_view font_note =
         "One line of UTF-8 text; the font file lies in the model's folder. docs/outlines.md says more.";
     return {
@@ -91,6 +107,19 @@ Rows outline_rows() {
                              {"The same with the middle of the drawing at center and this height.",
                               "s d((x - center)/s + m), s = height/(height of the drawing), m its middle"},
                              false),
+        row<&formula>(
+            "hfOutlineFormula", "x, file",
+            {"The outlines of an SVG drawing by the monotone formula, each edge's half-plane once.",
+             "polygons as of hfPolygon, less those of their holes, joined by the file's system", "pasko1996",
+             "For drawings of a few hundred straight edges; contours must not cross. Zero on the outlines "
+             "only, "
+             "and where shapes touch. docs/outlines.md says more."},
+            false),
+        row<&placed_formula>(
+            "hfOutlineFormula", "x, file, center, height",
+            {"The same with the middle of the drawing at center and this height.",
+             "s f((x - center)/s + m), s = height/(height of the drawing), m its middle", "pasko1996"},
+            false),
         row<&text>("hfText", "x, font, text, height",
                    {"Signed distance to a text in a TrueType or OpenType font, positive inside.",
                     "height d(x/height); a capital H stands from 0 to height, the text begins at 0",

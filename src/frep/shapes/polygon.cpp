@@ -162,6 +162,14 @@ Outline make_outline(std::vector<Vec2> vertices) {
     return out;
 }
 
+bool outlines_meet(const Outline& first, const Outline& second) {
+    const std::vector<Vec2>&v = first.vertices, &w = second.vertices;
+    for (std::size_t i = 0; i < v.size(); ++i)
+        for (std::size_t k = 0; k < w.size(); ++k)
+            if (meet(v[i], v[(i + 1) % v.size()], w[k], w[(k + 1) % w.size()])) return true;
+    return false;
+}
+
 Expression monotone_polygon(const SetSystem& system, const Outline& outline, Expression x, Expression y) {
     return Formula(system, outline.vertices, x, y).whole();
 }

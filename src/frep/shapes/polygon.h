@@ -22,6 +22,9 @@ struct Outline {
 /// meet anywhere but at the vertex that they share.
 Outline make_outline(std::vector<Vec2> vertices);
 
+/// True when the boundaries of two simple polygons have a common point.
+bool outlines_meet(const Outline& a, const Outline& b);
+
 /// Over the unit half-planes of the edges (positive to the left, distances): conjunction of the chains
 /// between the vertices of the convex hull, in each of them the disjunction of the chains of its own hull,
 /// and so on in turn. Joined as balanced trees by `system`.

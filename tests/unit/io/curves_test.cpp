@@ -27,7 +27,7 @@ TEST_CASE("a circle becomes a polygon within the tolerance, with about as few co
         CAPTURE(tolerance);
         CurveWriter out;
         out.ellipse({3, -2}, 5, 5);
-        const auto polygons = polygons_of(out.contours(), tolerance);
+        const auto polygons = polygons_of(out.contours(), tolerance, 100'000);
         REQUIRE(polygons.size() == 1);
         const auto& v = polygons[0];
         for (std::size_t i = 0; i < v.size(); ++i) {
@@ -45,7 +45,7 @@ TEST_CASE("a parabola's segment has two thirds of the area of its triangle") {
     out.move({0, 0});
     out.line({4, 0});
     out.quadratic({2, 6}, {0, 0});
-    const auto polygons = polygons_of(out.contours(), 1e-7);
+    const auto polygons = polygons_of(out.contours(), 1e-7, 100'000);
     REQUIRE(polygons.size() == 1);
     CHECK(area(polygons[0]) == Approx(2.0 / 3 * 0.5 * 4 * 6).epsilon(1e-6));
 }
@@ -58,7 +58,7 @@ TEST_CASE("contours without corners are left out, repeated points dropped") {
     out.move({5, 5});
     out.move({0, 0});
     for (const Vec2 p : {Vec2{1, 0}, Vec2{1, 0}, Vec2{1, 1}, Vec2{0, 0}}) out.line(p);
-    const auto polygons = polygons_of(out.contours(), 0.1);
+    const auto polygons = polygons_of(out.contours(), 0.1, 100'000);
     REQUIRE(polygons.size() == 1);
     CHECK(polygons[0].size() == 3);
     CHECK(box_of({}).is_empty());
@@ -74,4 +74,13 @@ TEST_CASE("maps apply to points, the inner one first") {
     out.line({1, 0});
     CHECK(out.contours()[0].start == Vec2{10, 0});
     CHECK(out.contours()[0].segments[0].to == Vec2{11, 0});
+}
+
+TEST_CASE("with a limit, curves stop early") {
+    CurveWriter out;
+    for (int i = 0; i < 1000; ++i) out.ellipse({0, 0}, 1, 1);
+    std::size_t count = 0;
+    for (const auto& polygon : polygons_of(out.contours(), 0, 5000)) count += polygon.size();
+    CHECK(count > 5000);
+    CHECK(count < 5000 + 20 * 2000);
 }

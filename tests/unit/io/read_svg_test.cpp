@@ -113,8 +113,8 @@ TEST_CASE("fill rules and visibility are inherited; style goes before attributes
     const auto notes =
         read_svg(svg(box + "<text>hello</text><text>again</text><path fill='none' d='M0 0L1 1'/>"))->notes;
     REQUIRE(notes.size() == 2);
-    CHECK(notes[0] == "`text` is not read (2 times)");
-    CHECK(notes[1] == "1 shapes are not filled and count for nothing");
+    CHECK(notes[0] == "not read: `text` (2 times)");
+    CHECK(notes[1] == "1 shapes have neither fill nor stroke and count for nothing");
 }
 
 TEST_CASE("used elements stand where they are used") {
@@ -142,6 +142,46 @@ TEST_CASE("units of the root") {
     check_extent(read("<rect width='1in' height='50%'/>", "viewBox='0 0 100 80'"), 0, -40, 96, 0);
 }
 
+TEST_CASE("strokes are shapes of their own, in the coordinates of their element") {
+    check_extent(read("<line x1='1' y1='2' x2='5' y2='2' stroke='red' stroke-width='2'/>"), 1, -3, 5, -1);
+    check_extent(read("<path d='M0 0H4' fill='none' stroke='#000'/>"), 0, -0.5, 4, 0.5);
+    const Area both = read("<rect width='4' height='4' stroke='red' stroke-width='1'/>");
+    REQUIRE(both.parts.size() == 2);
+    check_extent(both, -0.5, -4.5, 4.5, 0.5);
+    CHECK(std::fabs(area_of(Area{{both.parts[1]}})) == Approx(25 - 9 + 4 * 0.125));  // corners count twice
+    // the width is scaled with the element, and differently along x and y
+    check_extent(read("<g stroke='red' stroke-width='1'><path transform='scale(3 1)' d='M0 0V4'/></g>"), -1.5,
+                 -4, 1.5, 0);
+    CHECK(std::fabs(area_of(read("<polyline points='0 0 10 0' stroke='red' stroke-width='2' "
+                                 "style='stroke-linecap:round'/>"))) == Approx(20 + pi).epsilon(1e-4));
+    check_extent(
+        read("<path d='M0 0H4V4' fill='none' stroke='red' stroke-width='10%'/>", "viewBox='0 0 10 10'"), 0,
+        -4, 4.5, 0.5);
+    const auto notes = read_svg(svg("<path d='M0 0H4' stroke='red' stroke-dasharray='1 2' "
+                                    "style='marker-end:url(#a);vector-effect:non-scaling-stroke'/>"))
+                           ->notes;
+    REQUIRE(notes.size() == 3);
+    CHECK(notes[0] == "not read: `marker-end` (1 times)");
+    CHECK(notes[1] == "not read: `non-scaling-stroke` (1 times)");
+    CHECK(notes[2] == "not read: `stroke-dasharray` (1 times)");
+}
+
+TEST_CASE("style sheets paint what they select") {
+    const std::string sheet =
+        "<defs><style><![CDATA[ .off { fill : none } /* } */ rect.on,#q{fill:red;}\n@media "
+        "print{.on{fill:none}}"
+        " g > path { fill: none } ]]></style></defs>";
+    CHECK(
+        read(sheet + "<rect class='off' width='1' height='1'/><rect width='2' height='2' class='a off on'/>")
+            .parts.size() == 1);
+    CHECK(read(sheet + "<rect class='off' id='q' width='1' height='1'/><circle r='1' class='on'/>")
+              .parts.size() == 2);
+    const auto notes = read_svg(svg(sheet + "<circle r='1'/>"))->notes;
+    REQUIRE(notes.size() == 2);
+    CHECK(notes[0] == "not read: @-rules of style sheets (1 times)");
+    CHECK(notes[1] == "not read: style sheets' selectors other than `path`, `.class`, `#id` (1 times)");
+}
+
 TEST_CASE("what is wrong, and where") {
     CHECK(message_of("") == "1:1: No document element found");
     CHECK(message_of("<html/>") == "1:2: the root element is no `svg`");
@@ -156,12 +196,26 @@ TEST_CASE("what is wrong, and where") {
     CHECK(message_of("<svg><polygon points='1 2 3'/></svg>") == "1:23: points are pairs of numbers");
     CHECK(message_of("<svg><use href='#q'/></svg>") == "1:17: there is no element `#q`");
     CHECK(message_of("<svg><path d='M0 0'/></svg>") == "1:2: there is no path or shape");
-    CHECK(message_of("<svg><path d='M0 0L1 1'/></svg>") == "1:2: the filled shapes have no area");
+    CHECK(message_of("<svg><path d='M0 0L1 1'/></svg>") == "1:2: the painted shapes have no area");
     CHECK(message_of("<svg><path fill='none' d='M0 0L1 1'/></svg>") ==
-          "1:2: nothing is filled: all shapes have `fill` none, and strokes are not read");
+          "1:2: nothing is painted: all shapes have neither fill nor stroke");
+    CHECK(message_of("<svg>\n<path stroke='red' style='stroke-width:2em' d='M0 0L1 1'/></svg>") ==
+          "2:2: stroke-width: expected a length, found `2em`");
+    CHECK(message_of(
+              "<svg><g transform='scale(1e9)'><g transform='scale(1e9)'><circle r='1'/></g></g></svg>") ==
+          "1:2: after all transforms coordinates are beyond 1e12, or not finite");
 }
 
 TEST_CASE("files that try to be too much") {
+    std::string scale = "<svg><path transform='";
+    for (int i = 0; i < 40; ++i) scale += "scale(1e9)";
+    CHECK(message_of(scale + "' d='M0 0C0 0 0 0 0 0z'/></svg>") ==
+          "1:7: the transforms lead beyond all bounds");
+    for (int i = 0; i < 40; ++i) scale += "translate(1e9)scale(1e-9)";
+    CHECK(message_of(scale + "' d='M0 0h1v1'/></svg>") == "1:7: the transforms lead beyond all bounds");
+    CHECK(message_of("<svg><path stroke='red' stroke-width='1e9' stroke-miterlimit='1e300' "
+                     "d='M0 0L1 0L0 1e-9L1e9 0'/></svg>")
+              .find("error") != std::string::npos);
     std::string deep;
     for (int i = 0; i < 200'000; ++i) deep += "<g>";
     CHECK(!read_svg("<svg>" + deep));
@@ -181,6 +235,16 @@ TEST_CASE("files that try to be too much") {
     std::string many = "<svg><path d='M0 0";
     for (int i = 0; i < 250'000; ++i) many += " 1 2";
     CHECK(message_of(many + "'/></svg>") == "more than 200000 edges");
+    // few segments, each of which could become hundreds of edges
+    std::string curves = "<svg><path stroke='red' d='M0 0";
+    for (int i = 0; i < 100'000; ++i) curves += "c9 9 -9 9 0 0";
+    CHECK(message_of(curves + "'/></svg>") == "more than 200000 edges");
+    std::string tags = "<svg>";
+    for (int i = 0; i < 4'000'001; ++i) tags += "<a/>";
+    CHECK(message_of(tags + "</svg>") == "more than 4000000 tags and attributes");
+    std::string selectors = "<svg><style>";
+    for (int i = 0; i < 10'001; ++i) selectors += ".a,";
+    CHECK(message_of(selectors + "b{fill:red}</style></svg>") == "more than 10000 selectors of style sheets");
 }
 
 TEST_CASE("a file cut anywhere gives an area or a message") {

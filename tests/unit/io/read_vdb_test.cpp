@@ -99,6 +99,29 @@ TEST_CASE("grids whose box is too large are refused before it is made") {
     CHECK(read.error().kind == ErrorKind::over_limit);
 }
 
+TEST_CASE("lengths that a file states are compared with what it has, before memory is taken for them") {
+    auto fog = openvdb::FloatGrid::create(0.0f);
+    fog->setName("fog");
+    fog->insertMeta("what", openvdb::StringMetadata("this is a text"));
+    fog->tree().setValue(openvdb::Coord(0, 0, 0), 1.0f);
+    fog->tree().setValue(openvdb::Coord(1, 1, 1), 1.0f);
+    const std::string whole = bytes_of({fog}, openvdb::io::COMPRESS_ZIP);
+    REQUIRE(read_volume(whole));
+    for (const char* text : {"fog", "Tree_float_5_4_3", "what", "this is a text", "UniformScaleMap"}) {
+        CAPTURE(text);
+        const std::size_t at = whole.find(text);
+        REQUIRE(at != std::string::npos);
+        std::string lying = whole;
+        lying[at - 1] = '\x7f';  // the highest byte of its length
+        const auto read = read_volume(lying);
+        REQUIRE(!read);
+        CHECK(read.error().message == "a damaged OpenVDB file: IoError: it ends too early");
+    }
+    std::string later = whole;
+    later[8] = '\xff';
+    CHECK(read_volume(later).error().message.find("is not read") != std::string::npos);
+}
+
 TEST_CASE("a file cut anywhere is refused") {
     auto fog = openvdb::FloatGrid::create(0.0f);
     for (int i = 0; i < 3; ++i) fog->tree().setValue(openvdb::Coord(i, 2 * i, 3 * i), 1.0f);

@@ -36,7 +36,7 @@ TEST_CASE("hfOutline") {
     const Expression f = s.call("hfOutline", {s.x, "ring.svg"});
     CHECK(s.errors.empty());
     REQUIRE(s.notes.size() == 1);
-    CHECK(s.notes[0] == "ring.svg: `text` is not read (1 times)");
+    CHECK(s.notes[0] == "ring.svg: not read: `text` (1 times)");
     CHECK(at(f, 30, -20, 0) == -5);  // the middle of the hole, y up
     CHECK(at(f, 15, -20, 0) == 5);
     CHECK(at(f, 10, -20, 7) == 0);
