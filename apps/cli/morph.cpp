@@ -34,7 +34,15 @@ constexpr double span = 10;  ///< the blend's own time runs from -span to span
 constexpr int trial_frames = 41, trial_cells_flat = 96, trial_cells_solid = 32;
 constexpr double least_share = 0.5;  ///< of the smaller shape, that every frame must have
 
+constexpr int doublings = 9, halvings = 3;  ///< of the displacement, in the search for it
+
 Error usage(std::string message) { return {ErrorKind::invalid_argument, std::move(message)}; }
+
+/// To so many decimal digits; NaN stays.
+double rounded(double value, int digits) {
+    const auto number = parse_number(fmt::format("{:.{}g}", value, digits));
+    return number ? *number : value;
+}
 
 class MorphRun {
   public:
@@ -120,13 +128,13 @@ class MorphRun {
     void find_factors() {
         for (std::size_t i = 0; i < 2; ++i) {
             const double range = slopes_[i] * both().diagonal();
-            const auto rounded = parse_number(fmt::format("{:.3g}", usual_range / range));
-            if (rounded && std::isfinite(*rounded) && *rounded > 0) factors_[i] = *rounded;
+            const double factor = rounded(usual_range / range, 3);
+            if (std::isfinite(factor) && factor > 0) factors_[i] = factor;
         }
     }
 
-    /// The smallest displacement, of a row of doubled ones, with which no frame is much smaller than the
-    /// shapes, and none falls into more parts than they have.
+    /// The smallest displacement, to a tenth or so, with which no frame is much smaller than the shapes, and
+    /// none falls into more parts than they have.
     Status find_strength() {
         Box3 box = both();
         const double margin = 0.1 * box.diagonal();
@@ -157,16 +165,28 @@ class MorphRun {
         auto strength = MovingModel::make(trial, Along{fmt::format("a[{}]", last + 1), 0, 1});
         if (!strength) return strength.error();
         ProgressBar bar("looking for a0");
-        constexpr int steps = 9;
-        double least = -1, a0 = usual_range / 64;
-        for (int step = 0; step < steps && least != 0; ++step, a0 *= 2) {
-            if (const Status status = strength->set(a0); !status) return status;
-            const auto badness = try_out(trial, box);
+        double least = -1;
+        const auto try_strength = [&](double a0) -> Result<double> {
+            if (const Status status = strength->set(a0); !status) return status.error();
+            return try_out(trial, box);
+        };
+        for (int step = 0; step < doublings && least != 0; ++step) {
+            const double a0 = usual_range / 64 * (1 << step);
+            const auto badness = try_strength(a0);
             if (!badness) return badness.error();
-            bar.update((step + 1.0) / steps);
+            bar.update((step + 1.0) / (doublings + halvings));
             if (least >= 0 && *badness >= least) continue;
             least = *badness;
             blend_.a0 = a0;
+        }
+        // More than needed puffs the shapes up.
+        double too_small = blend_.a0 / 2;
+        for (int step = 0; step < halvings && least == 0; ++step) {
+            const double a0 = rounded(std::sqrt(too_small * blend_.a0), 2);
+            const auto badness = try_strength(a0);
+            if (!badness) return badness.error();
+            bar.update((doublings + step + 1.0) / (doublings + halvings));
+            (*badness == 0 ? blend_.a0 : too_small) = a0;
         }
         if (least > 0)
             print_warning("the shapes fall apart or vanish between: try --a0, --b0, or move them nearer");
