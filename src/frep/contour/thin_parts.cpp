@@ -121,7 +121,7 @@ void ThinParts::collect(const SampleBlock& block) {
     Lattice end{};
     for (std::size_t a = 0; a < 3; ++a) end[a] = std::min(block.last[a] + 1, block_side);
     const auto is_steep = [](Eight pair, Eight behind) {
-        return (behind & magnitude) - (pair & magnitude) > steep;
+        return ((behind & magnitude) - (pair & magnitude) > steep) & ((behind ^ pair) >= 0);
     };
     constexpr Eight none{}, all = ~none;
     for (std::size_t axis = 0; axis < 3; ++axis) {
